@@ -1,0 +1,60 @@
+"""Arguments that cannot mean anything are refused, by name, before any computing starts."""
+
+import numpy as np
+
+__all__ = ["array", "interval", "nonnegative", "number", "one_of", "positive", "whole"]
+
+
+def number(name, value, allowed="a finite number", test=lambda x: True):
+    """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
+    try:
+        x = float(value)
+    except (TypeError, ValueError):
+        x = np.nan
+    if not (np.isfinite(x) and test(x)):
+        raise ValueError(f"{name} must be {allowed}, got {value!r}")
+    return x
+
+
+def positive(name, value):
+    """Return `value` as a finite float > 0."""
+    return number(name, value, "a finite number > 0", lambda x: x > 0)
+
+
+def nonnegative(name, value):
+    """Return `value` as a finite float >= 0."""
+    return number(name, value, "a finite number >= 0", lambda x: x >= 0)
+
+
+def interval(name, value, low, high):
+    """Return `value` as a float with low < value < high."""
+    return number(name, value, f"a number between {low} and {high}", lambda x: low < x < high)
+
+
+def whole(name, value, low):
+    """Return `value` as an int >= low."""
+    test = lambda x: x >= low and x == int(x)  # noqa: E731
+    return int(number(name, value, f"a whole number >= {low}", test))
+
+
+def one_of(name, value, choices):
+    """Return `value` if it is among `choices`."""
+    if value not in choices:
+        raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
+    return value
+
+
+def array(name, value, shape=None, dtype=float, finite=True):
+    """Return `value` as an array of the given shape; None in `shape` stands for any length."""
+    try:
+        x = np.asarray(value, dtype=dtype)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be an array of numbers, got {value!r}") from None
+    if shape is not None and (
+        x.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, x.shape))
+    ):
+        wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
+        raise ValueError(f"{name} must have shape {wanted}, got {x.shape}")
+    if finite and not np.isfinite(x).all():
+        raise ValueError(f"{name} must be finite everywhere, got {x[~np.isfinite(x)].flat[0]}")
+    return x

@@ -1,0 +1,213 @@
+"""One-step methods as data: a Butcher tableau, and all that follows from it.
+
+Stability function, stability region, largest stable step and the matrices of one step are
+computed from the tableau and from nothing else, so a new method is one line of numbers.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+from suspension import _checks
+
+__all__ = ["BACKWARD_EULER", "CRANK_NICOLSON", "EULER", "RK4", "Scheme"]
+
+ROUNDOFF = 64 * np.finfo(float).eps
+
+
+@dataclass(frozen=True, eq=False)
+class Scheme:
+    """A Runge-Kutta method with s stages, explicit or implicit.
+
+    Parameters
+    ----------
+    name : str
+        What figures and tables call it.
+    order : int
+        Order of convergence, >= 1.
+    a : array_like, shape (s, s)
+        Weights of the stages in each other.
+    b : array_like, shape (s,)
+        Weights of the stages in the step; they sum to 1.
+    c : array_like, shape (s,)
+        Abscissae of the stages, the row sums of `a`.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit each other, or the method is not consistent.
+
+    Examples
+    --------
+    >>> heun = Scheme("Heun", 2, a=[[0, 0], [1, 0]], b=[1 / 2, 1 / 2], c=[0, 1])
+    >>> round(heun.max_stable_dt([-4]), 12)
+    0.5
+    """
+
+    name: str
+    order: int
+    a: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+
+    def __post_init__(self):
+        b = _checks.array("b", self.b, (None,))
+        a = _checks.array("a", self.a, (len(b), len(b)))
+        c = _checks.array("c", self.c, (len(b),))
+        if abs(b.sum() - 1) > ROUNDOFF:
+            raise ValueError(f"b must sum to 1, got {b.sum()}")
+        if np.abs(a.sum(axis=1) - c).max() > ROUNDOFF:
+            raise ValueError(f"c must be the row sums of a, {a.sum(axis=1)}, got {c}")
+        _checks.whole("order", self.order, 1)
+        for name, value in (("a", a), ("b", b), ("c", c)):
+            value = value.copy()
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+    def stability_function(self, z):
+        """Growth per step of ``w' = lambda w``: ``R(z) = 1 + z b^T (I - z a)^-1 1``.
+
+        Parameters
+        ----------
+        z : array_like of complex
+            ``lambda dt``, any shape.
+
+        Returns
+        -------
+        R : ndarray of complex, the shape of `z`
+            Infinite at a pole, and where the powers of z overflow.
+        """
+        P, Q = self.polynomials
+        z = np.asarray(z, dtype=complex)
+        with np.errstate(all="ignore"):
+            R = P(z) / Q(z)
+        return np.where(np.isfinite(R), R, np.inf)
+
+    @property
+    def polynomials(self):
+        """Numerator and denominator of R, ``det(I - z (a - 1 b^T))`` and ``det(I - z a)``.
+
+        Two `numpy.polynomial.Polynomial`; the denominator of an explicit method is 1.
+        """
+        return _determinant(self.a - self.b), _determinant(self.a)
+
+    def one_step(self, A, dt):
+        """Matrices of one step, ``w_{n+1} = R w_n + sum_i G_i F(t_n + c_i dt)``.
+
+        Parameters
+        ----------
+        A : array_like, shape (..., n, n)
+            State matrix of ``w' = A w + F(t)``, 1/s; leading axes are independent systems.
+        dt : float
+            Time step, s, > 0.
+
+        Returns
+        -------
+        R : ndarray, shape (..., n, n)
+        G : ndarray, shape (s, ..., n, n)
+            In s.
+        """
+        A, dt = np.asarray(A, dtype=float), _checks.positive("dt", dt)
+        if A.ndim < 2 or A.shape[-1] != A.shape[-2]:
+            raise ValueError(f"A must be square, got shape {A.shape}")
+        s, n = len(self.b), A.shape[-1]
+        # All stages at once: (I - dt a kron A)^T G^T = dt (b^T kron I)^T.
+        stages = np.eye(s * n) - dt * np.kron(self.a, A)
+        G = np.linalg.solve(stages.swapaxes(-1, -2), dt * np.kron(self.b, np.eye(n)).T)
+        G = np.moveaxis(G.reshape(*A.shape[:-2], s, n, n), -3, 0).swapaxes(-1, -2)
+        return np.eye(n) + G.sum(axis=0) @ A, G
+
+    def is_stable(self, eigenvalues, dt):
+        """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to roundoff)."""
+        z = _checks.array("eigenvalues", eigenvalues, dtype=complex) * _checks.positive("dt", dt)
+        return bool((np.abs(self.stability_function(z)) <= 1 + ROUNDOFF).all())
+
+    def max_stable_dt(self, eigenvalues):
+        """The largest step up to which every smaller one is stable too, in s; inf if all are.
+
+        Along a ray ``z = lambda dt`` the method is stable where ``|Q|^2 - |P|^2 >= 0``, a real
+        polynomial in dt: its first root with a change of sign is the limit. Eigenvalues with a
+        positive real part give 0.
+        """
+        eigenvalues = _checks.array("eigenvalues", eigenvalues, dtype=complex)
+        return min((self._limit(z) for z in eigenvalues.ravel()), default=np.inf)
+
+    def _limit(self, eigenvalue):
+        modulus = abs(eigenvalue)
+        if modulus == 0:
+            return np.inf
+        P, Q = (
+            Polynomial(p.coef * (eigenvalue / modulus) ** np.arange(len(p.coef)))
+            for p in self.polynomials
+        )
+        slack = (Q * Polynomial(Q.coef.conj()) - P * Polynomial(P.coef.conj())).coef.real
+        slack[np.abs(slack) < ROUNDOFF] = 0.0
+        slack = np.trim_zeros(slack, "f")  # the multiple root at dt = 0 says nothing
+        if not slack.size:
+            return np.inf
+        slack = Polynomial(slack)
+        roots = slack.roots()
+        roots = np.sort(roots.real[(np.abs(roots.imag) < 1e-9 * np.abs(roots)) & (roots.real > 0)])
+        edges = np.concatenate([[0.0], roots])
+        inside = np.append((edges[:-1] + edges[1:]) / 2, edges[-1] + 1)
+        unstable = slack(inside) < 0
+        return edges[unstable.argmax()] / modulus if unstable.any() else np.inf
+
+    def boundary(self, n=400):
+        """The neutral curve ``|R(z)| = 1`` through z = 0, like the course's ``rk4sb``.
+
+        Traced in the upper half-plane by following the root of ``R(z) = exp(i phi)`` from z = 0
+        as phi grows, then mirrored. An A-stable method whose curve runs to infinity (the whole
+        imaginary axis for Crank-Nicolson) is sampled up to a finite height.
+
+        Parameters
+        ----------
+        n : int
+            Number of points, >= 4.
+
+        Returns
+        -------
+        points : ndarray, shape (n, 2)
+            Real and imaginary part of z, in order along the curve.
+        """
+        n = _checks.whole("n", n, 4)
+        P, Q = self.polynomials
+        half = (n + 1) // 2
+        # Each root of R is passed once as phi grows by 2 pi, so half the curve takes degree * pi.
+        phi = max(P.degree(), Q.degree()) * np.pi * (np.arange(half) + 0.5 * (n % 2 == 0)) / half
+        z = np.empty(half, dtype=complex)
+        at, step = 0j, phi[0]
+        for j in range(half):
+            slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
+            roots = (P - np.exp(1j * phi[j]) * Q).roots()
+            at = z[j] = roots[np.abs(roots - (at + step * slope)).argmin()]
+            step = phi[1] - phi[0]
+        z = np.concatenate([z[::-1].conj(), z[n % 2 :]])
+        return np.column_stack([z.real, z.imag])
+
+
+def _determinant(M):
+    """The polynomial ``det(I - z M)``, by the Faddeev-LeVerrier recursion (no eigenvalues)."""
+    coef, X = [1.0], np.eye(len(M))
+    for j in range(1, len(M) + 1):
+        X = M @ X
+        coef.append(-np.trace(X) / j)
+        X = X + coef[-1] * np.eye(len(M))
+    coef = np.array(coef)
+    coef[np.abs(coef) < ROUNDOFF] = 0.0
+    return Polynomial(coef).trim()
+
+
+EULER = Scheme("Euler", 1, a=[[0]], b=[1], c=[0])
+BACKWARD_EULER = Scheme("Backward Euler", 1, a=[[1]], b=[1], c=[1])
+CRANK_NICOLSON = Scheme(
+    "Crank-Nicolson", 2, a=[[0, 0], [1 / 2, 1 / 2]], b=[1 / 2, 1 / 2], c=[0, 1]
+)
+RK4 = Scheme(
+    "RK4",
+    4,
+    a=[[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 1 / 2, 0, 0], [0, 0, 1, 0]],
+    b=[1 / 6, 1 / 3, 1 / 3, 1 / 6],
+    c=[0, 1 / 2, 1 / 2, 1],
+)
