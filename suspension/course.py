@@ -1,0 +1,139 @@
+"""The problem set's own functions, by its names and in its order of arguments.
+
+Loops that read like the textbook, for any right-hand side; `suspension.simulation` computes the
+same trajectories faster. Histories are (4, J+1) and times (J+1,), as the problem has them.
+"""
+
+from functools import cache
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from suspension import _checks
+from suspension.road import GaussianBump, road_input
+from suspension.robot import Robot
+from suspension.simulation import steps
+from suspension.springs import fit_spring, load_spring_data
+
+__all__ = ["Hgauss", "RK4", "crank_nicolson", "gfunc_linear", "make_forcing", "make_gfunc", "the_robot"]
+
+Hgauss = GaussianBump()
+
+
+@cache
+def the_robot():
+    """The problem's robot: Table 1, and on both axles the stiffness fitted in Part I."""
+    k = fit_spring(load_spring_data()).stiffness
+    return Robot(k, k)
+
+
+def make_gfunc(robot, road):
+    """Return ``gfunc(w, t, v) -> (wdot, N1, N2)`` for any robot and any road.
+
+    The returned function takes the state w, shape (4,), the time t in s and the speed v in m/s,
+    and gives ``w' = A w + F(t)``, shape (4,), and the two normal forces in N.
+    """
+
+    def gfunc(w, t, v):
+        u = road_input(robot, road, v, t)
+        N1, N2 = robot.C @ w + robot.D @ u
+        wdot = robot.A @ w + robot.B @ u + robot.e
+        return wdot, N1, N2
+
+    return gfunc
+
+
+def make_forcing(robot, road, v):
+    """Return ``F(t)``, shape (4,), of ``w' = A w + F(t)`` at speed `v` in m/s."""
+    return lambda t: robot.B @ road_input(robot, road, v, t) + robot.e
+
+
+def gfunc_linear(w, t, v):
+    """Rate of change of the state and the normal forces, for the problem's robot and bump.
+
+    Parameters
+    ----------
+    w : array_like, shape (4,)
+        State ``[Y, Y', theta, theta']``.
+    t : float
+        Time, s.
+    v : float
+        Speed, m/s.
+
+    Returns
+    -------
+    wdot : ndarray, shape (4,)
+        ``A w + F(t)``.
+    N1, N2 : float
+        Normal forces at the rear and the front wheel, N (Eq. 5).
+    """
+    return make_gfunc(the_robot(), Hgauss)(_checks.array("w", w, (4,)), t, v)
+
+
+def RK4(gfunc_handle, w0, deltat, tfinal, v):
+    """Integrate ``w' = g(w, t; v)`` with the four-stage Runge-Kutta method.
+
+    Parameters
+    ----------
+    gfunc_handle : callable
+        ``gfunc_handle(w, t, v)``, returning w' of the shape of w, alone or as the first of several
+        outputs.
+    w0 : array_like, shape (n,)
+        State at t = 0.
+    deltat, tfinal : float
+        Time step and final time, s, > 0.
+    v : float
+        Speed, m/s, handed on.
+
+    Returns
+    -------
+    W : ndarray, shape (n, J+1)
+    T : ndarray, shape (J+1,)
+    """
+
+    def g(w, t):
+        output = gfunc_handle(w, t, v)
+        return output[0] if isinstance(output, tuple) else output
+
+    T = deltat * np.arange(steps(tfinal, deltat) + 1)
+    W = np.empty((len(w0), len(T)))
+    W[:, 0] = _checks.array("w0", w0, (None,))
+    for j, t in enumerate(T[:-1]):
+        w = W[:, j]
+        g1 = g(w, t)
+        g2 = g(w + deltat / 2 * g1, t + deltat / 2)
+        g3 = g(w + deltat / 2 * g2, t + deltat / 2)
+        g4 = g(w + deltat * g3, t + deltat)
+        W[:, j + 1] = w + deltat / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
+    return W, T
+
+
+def crank_nicolson(A, F, w0, deltat, tfinal):
+    """Integrate ``w' = A w + F(t)`` with Crank-Nicolson, one LU factorisation for all steps.
+
+    Parameters
+    ----------
+    A : array_like, shape (n, n)
+        State matrix, 1/s.
+    F : callable
+        ``F(t)``, shape (n,).
+    w0 : array_like, shape (n,)
+        State at t = 0.
+    deltat, tfinal : float
+        Time step and final time, s, > 0.
+
+    Returns
+    -------
+    W : ndarray, shape (n, J+1)
+    T : ndarray, shape (J+1,)
+    """
+    A = _checks.array("A", A, (len(w0), len(w0)))
+    half, identity = deltat / 2 * A, np.eye(len(A))
+    lu = lu_factor(identity - half)
+    T = deltat * np.arange(steps(tfinal, deltat) + 1)
+    W = np.empty((len(A), len(T)))
+    W[:, 0] = _checks.array("w0", w0, (None,))
+    for j, t in enumerate(T[:-1]):
+        known = (identity + half) @ W[:, j] + deltat / 2 * (F(t) + F(t + deltat))
+        W[:, j + 1] = lu_solve(lu, known)
+    return W, T
