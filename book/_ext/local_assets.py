@@ -1,0 +1,62 @@
+"""Sphinx extension: every script and font comes from the book itself, none from another host.
+
+npm has put MathJax, require.js and the widget manager into ``book/npm/node_modules``, by version
+and integrity; anywidget's module comes from the installed wheel, so that both halves match.
+"""
+
+import shutil
+from importlib.util import find_spec
+from pathlib import Path
+
+from sphinx.errors import ExtensionError
+
+HERE = Path(__file__).parent
+NODE_MODULES = HERE.parent / "npm" / "node_modules"
+WIDGETS = NODE_MODULES / "@jupyter-widgets/html-manager/dist"
+ANYWIDGET = Path(find_spec("anywidget").origin).parent / "nbextension" / "index.js"
+FILES = {
+    "mathjax": [
+        NODE_MODULES / "mathjax/es5/tex-chtml.js",
+        NODE_MODULES / "mathjax/es5/output/chtml/fonts/woff-v2",
+        NODE_MODULES / "mathjax/es5/input/tex/extensions",
+    ],
+    "widgets": [
+        NODE_MODULES / "requirejs/require.js",
+        HERE / "widget_paths.js",
+        WIDGETS / "embed-amd.js",
+        *WIDGETS.glob("*.woff2"),  # the icons that a widget's button may show
+        ANYWIDGET,
+    ],
+}
+WIDGET_SCRIPTS = ["require.js", "widget_paths.js", "embed-amd.js"]  # in this order
+
+
+def configure(app, config):
+    """Point Sphinx and MyST-NB to the copies."""
+    config.mathjax_path = "mathjax/tex-chtml.js"
+    config.nb_ipywidgets_js = {f"widgets/{name}": {"defer": "defer"} for name in WIDGET_SCRIPTS}
+
+
+def copy_files(app):
+    """Copy the files to ``_static``, before Sphinx computes the checksums in their addresses."""
+    if app.builder.format != "html":
+        return
+    for folder, sources in FILES.items():
+        for source in sources:
+            if not source.exists():
+                raise ExtensionError(f"{source} is missing: run 'npm ci' in book/npm, or 'make'")
+            # MathJax looks for fonts and extensions at their places beside its main file.
+            tail = source.relative_to(NODE_MODULES / "mathjax/es5") if folder == "mathjax" else ""
+            target = Path(app.outdir, "_static", folder, tail or source.name)
+            if source.is_dir():
+                shutil.copytree(source, target, dirs_exist_ok=True)
+            else:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source, target)
+
+
+def setup(app):
+    """Connect to Sphinx."""
+    app.connect("config-inited", configure)
+    app.connect("builder-inited", copy_files)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,58 @@
+"""Sphinx extension: repairs of what the theme and its parts write into every page.
+
+Each repair is a regular expression, its replacement, and the pages that must need it; a repair
+that no page of a whole build needs any more is a warning, so that this list only ever shrinks.
+"""
+
+import re
+from pathlib import Path
+
+from sphinx.util import logging
+
+logger = logging.getLogger(__name__)
+
+REPAIRS = {
+    # 540 kB (gzipped) of icons as a script; the style sheet's icon font shows the same ones.
+    r'\s*<!-- So that users can add custom icons -->\s*<script defer src="[^"]*fontawesome.js[^>]*>'
+    r"</script>": "",
+    # A second title and contents for print, where the page's own title follows.
+    r'<div id="jb-print-docs-body".*?(?=<div id="searchbox">)': "",
+    # The logo stands outside every landmark.
+    r'<div id="pst-primary-sidebar"': r'\g<0> role="complementary" aria-label="Book"',
+    # Labels that hide the visible or titled text of a button: axe label-content-name-mismatch.
+    r'(<button class="btn search-button-field[^>]*?) aria-label="Search"': r"\1",
+    r'(class="theme-switch [^>]*?) title="[^"]*"': r'\1 aria-hidden="true"',
+    r'<summary aria-label="Toggle hidden content">': "<summary>",
+    # Roles that browsers have dropped, and a list without items.
+    r' role="doc-biblioentry"': "",
+    r'<div role="list" class="citation-list">': '<div class="citation-list">',
+    # A header cell without a header: the corner of a pandas table.
+    r'<th(?: class="head")?>(?:<p></p>)?</th>': "<td></td>",
+}
+UNUSED_FILES = "_static/scripts/fontawesome.js*"
+
+
+def repair(app, exception):
+    """Apply the repairs to all pages."""
+    if exception or app.builder.format != "html":
+        return
+    needed = set()
+    for path in Path(app.outdir).rglob("*.html"):
+        if path.is_relative_to(Path(app.outdir, "_static")):
+            continue
+        text = path.read_text()
+        for pattern, replacement in REPAIRS.items():
+            text, count = re.subn(pattern, replacement, text, flags=re.DOTALL)
+            if count:
+                needed.add(pattern)
+        path.write_text(text)
+    for path in Path(app.outdir).glob(UNUSED_FILES):
+        path.unlink()
+    for pattern in REPAIRS.keys() - needed:
+        logger.warning("no page needs this repair any more: %s", pattern)
+
+
+def setup(app):
+    """Connect to Sphinx."""
+    app.connect("build-finished", repair)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

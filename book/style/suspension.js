@@ -1,0 +1,24 @@
+// What the theme leaves open for readers with a keyboard, a screen reader, or the book as files.
+(() => {
+  // A page that was opened as a file may not read the others to show extracts of them.
+  if (location.protocol === "file:") DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
+
+  const reach = () => {
+    // What scrolls sideways can be reached by keyboard.
+    for (const box of document.querySelectorAll("article mjx-container, article span.math")) {
+      if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
+      else box.removeAttribute("tabindex");
+    }
+    // A slider's handle says its label.
+    for (const handle of document.querySelectorAll(".noUi-handle:not([aria-label])")) {
+      const label = handle.closest(".jupyter-widgets")?.querySelector(".widget-label");
+      if (label?.textContent) handle.setAttribute("aria-label", label.textContent);
+    }
+  };
+  addEventListener("resize", reach);
+  addEventListener("load", () => {
+    reach();
+    const article = document.querySelector("article");
+    if (article) new MutationObserver(reach).observe(article, { childList: true, subtree: true });
+  });
+})();
