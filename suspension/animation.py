@@ -7,7 +7,7 @@ from matplotlib.animation import FuncAnimation
 from suspension import _checks
 from suspension.course import Hgauss, the_robot
 
-__all__ = ["RobotDrawing", "animate_robot"]
+__all__ = ["RobotDrawing", "animate_robot", "film"]
 
 COLOURS = ("C0", "C1")  # rear, front, as in the plots of the forces
 
@@ -115,3 +115,18 @@ def animate_robot(W, T, v, steps_per_frame=1, *, robot=None, road=None):
     frames = range(0, len(T), stride)
     interval = max(1000 * stride * np.diff(T).mean(), 20) if len(T) > 1 else 20  # ms
     return FuncAnimation(figure, draw, frames=frames, interval=interval, blit=True)
+
+
+def film(history, robot, road, times):
+    """A strip of frames, one below the other, of a Trajectory or a Flight at the given times, s."""
+    figure, axes = plt.subplots(len(times), sharex=True, figsize=(7.2, 1.35 * len(times)))
+    gaps = getattr(history, "gaps", None)
+    X = history.v * np.asarray(times)
+    for ax, t, x in zip(np.atleast_1d(axes), times, X, strict=True):
+        j = np.abs(history.T - t).argmin()
+        drawing = RobotDrawing(ax, robot, road)
+        drawing.ground(X.min() - 2 * robot.L1, X.max() + 2 * robot.L2)
+        drawing.update(history.W[:, j], x, None if gaps is None else gaps[:, j])
+        ax.text(0.01, 0.93, f"t = {t:.3f} s", transform=ax.transAxes, va="top")
+        ax.label_outer()
+    return figure

@@ -15,7 +15,15 @@ from suspension.robot import Robot
 from suspension.simulation import steps
 from suspension.springs import fit_spring, load_spring_data
 
-__all__ = ["Hgauss", "RK4", "crank_nicolson", "gfunc_linear", "make_forcing", "make_gfunc", "the_robot"]
+__all__ = [
+    "RK4",
+    "Hgauss",
+    "crank_nicolson",
+    "gfunc_linear",
+    "make_forcing",
+    "make_gfunc",
+    "the_robot",
+]
 
 Hgauss = GaussianBump()
 
@@ -134,6 +142,6 @@ def crank_nicolson(A, F, w0, deltat, tfinal):
     W = np.empty((len(A), len(T)))
     W[:, 0] = _checks.array("w0", w0, (None,))
     for j, t in enumerate(T[:-1]):
-        known = (identity + half) @ W[:, j] + deltat / 2 * (F(t) + F(t + deltat))
-        W[:, j + 1] = lu_solve(lu, known)
+        forcing = deltat / 2 * (F(t) + F(t + deltat))
+        W[:, j + 1] = lu_solve(lu, (identity + half) @ W[:, j] + forcing)
     return W, T

@@ -14,7 +14,7 @@ from suspension.road import GaussianBump
 __all__ = ["Crossing", "E", "flat_ground", "over_bump"]
 
 ILL_CONDITIONED = 30.0  # eigenvectors lose digits as the square of this
-CIRCLE = 8  # points in a mean over a circle, whose error is at most about (1/80)^CIRCLE
+CIRCLE = 8  # points in a mean over a circle, whose error is about (1/80)^CIRCLE
 FAR = 40.0  # exp(-FAR) is below roundoff beside 1
 
 
@@ -107,23 +107,21 @@ def over_bump(robot, bump, v, t, w0=None):
 
 
 class Crossing:
-    """The exact motion over a Gaussian bump as a function of time, ``W = Crossing(...)(t)``.
+    """The motion over a Gaussian bump as a function of time, ``W = Crossing(...)(t)``.
 
-    What the dampers pass on directly is split off: ``y = w - w_eq - sum_i c_i P_i h_i`` obeys
+    What the dampers pass on at once is split off: ``y = w - w_eq - sum_i c_i P_i h_i`` obeys
     ``y' = A y + sum_i b_i h_i`` with ``b_i = k_i P_i + c_i A P_i``. There a mode with eigenvalue
-    lam, of size a at the start, driven by ``g h``, is ``exp(lam t) (a - g M(0)) + g M(t)`` with
-    the memory ``M = height sqrt(2) sigma / v sqrt(pi) / 2 E(u)`` of a mode that has come from
-    infinitely far.
+    lam, driven by ``g h``, is ``exp(lam t) (q(0) - g M(0)) + g M(t)``, where
+    ``M = height sqrt(pi) sigma / (sqrt(2) v) E(u)`` remembers the road from infinitely far.
 
-    Parameters
-    ----------
-    robot, bump, v, w0
-        As for `over_bump`.
+    Parameters are those of `over_bump`.
 
     Attributes
     ----------
+    matrices : tuple of ndarray
+        A, B, C, D and e of the robot.
     lam : ndarray of complex, shape (modes,)
-        Eigenvalues, 1/s, one of each conjugate pair (or of the robots of `_modes`).
+        Eigenvalues, 1/s, one of each conjugate pair (or those on the circle of `_modes`).
     start : ndarray, shape (2,)
         ``u`` at t = 0, rear and front wheel.
     rate : float
@@ -134,56 +132,34 @@ class Crossing:
         if not isinstance(bump, GaussianBump):
             raise ValueError(f"bump must be a GaussianBump, got {bump!r}")
         v = _checks.number("v", v)
-        self.robot, self.bump, self.rest = robot, bump, robot.equilibrium
+        self.v, self.bump, self.rest = v, bump, robot.equilibrium
+        self.matrices = A, *_ = robot.A, robot.B, robot.C, robot.D, robot.e
         w0 = self.rest if w0 is None else _checks.array("w0", w0, (4,))
         width = np.sqrt(2) * bump.sigma
         ahead = np.array([-robot.L1, robot.L2]) - bump.centre
         self.start, self.rate = np.copysign(1.0, v) * ahead / width, abs(v) / width
         self.lam, self.right, left = _modes(robot)
         self.direct = robot.P * [robot.c1, robot.c2]
-        self.g = left @ (robot.P * [robot.k1, robot.k2] + robot.A @ self.direct)
-        y0 = w0 - self.rest - self.direct @ self._heights(np.zeros(1))[0][:, 0]
-        self.a = left @ y0 - np.sum(self.g * self._memory(np.zeros(1))[:, :, 0], axis=1)
+        self.g = left @ (robot.P * [robot.k1, robot.k2] + A @ self.direct)
+        y0 = w0 - self.rest - self.direct @ self.road(np.zeros(1))[0][:, 0]
+        self.free = left @ y0 - np.sum(self.g * self._memory(np.zeros(1))[:, :, 0], axis=1)
 
     def __call__(self, t):
-        """State at times `t`, s, shape (n,) or (): ndarray, shape (4, n) or (4,)."""
+        """State at times `t` >= 0, s, of shape (n,) or (): ndarray, shape (4, n) or (4,)."""
         t = _checks.array("t", t)
         if (t < 0).any():
             raise ValueError(f"t must be >= 0, got {t.min()}")
-        return self._state(t.ravel()).reshape(4, *t.shape)
+        s = t.ravel()
+        q = self.free[:, None] * np.exp(self.lam[:, None] * s)
+        q += np.einsum("mi,min->mn", self.g, self._memory(s))
+        W = self.rest[:, None] + self.direct @ self.road(s)[0] + (self.right @ q).real
+        return W.reshape(4, *t.shape)
 
-    def forces(self, t, order=0):
-        """Normal forces and their time derivatives, ``N = C w + D u`` (Eq. 5).
-
-        Parameters
-        ----------
-        t : ndarray, shape (n,)
-            Times, s.
-        order : int
-            The highest derivative wanted; ``w' = A w + B u + e`` gives each from the one before.
-
-        Returns
-        -------
-        N : ndarray, shape (order + 1, 2, n)
-        """
-        A, B, C, D = self.robot.A, self.robot.B, self.robot.C, self.robot.D
-        w, h, N = self._state(t), self._heights(t, order + 1), []
-        for n in range(order + 1):
-            u = np.concatenate(h[n : n + 2])
-            N.append(C @ w + D @ u)
-            w = A @ w + B @ u + (self.robot.e[:, None] if n == 0 else 0.0)
-        return np.array(N)
-
-    def _state(self, t):
-        q = self.a[:, None] * np.exp(self.lam[:, None] * t)
-        q += np.einsum("mi,min->mn", self.g, self._memory(t))
-        return self.rest[:, None] + self.direct @ self._heights(t)[0] + (self.right @ q).real
-
-    def _heights(self, t, order=0):
-        # The road under both wheels and its time derivatives (Hermite's recurrence).
+    def road(self, t, order=0):
+        """Height under both wheels and its time derivatives: a list of ndarrays, shape (2, n)."""
         u, r = self.start[:, None] + self.rate * t, self.rate
         h = [self.bump.height * np.exp(-u * u)]
-        for n in range(order):
+        for n in range(order):  # Hermite's recurrence
             h.append(-2 * r * (u * h[n] + (n * r * h[n - 1] if n else 0.0)))
         return h
 
@@ -195,16 +171,15 @@ class Crossing:
 
 
 def E(u, kappa):
-    """What a mode remembers of the bump it has met up to u.
+    """What a mode remembers at u of the bump: ``exp(-u^2) w(-i (u + kappa/2))``, w of Faddeeva.
 
-    ``E(u) = exp(-u^2) w(-i (u + kappa/2)) = 2 / sqrt(pi) int_{-inf}^u exp(kappa (u - s) - s^2) ds``
-    with the Faddeeva function w. Bounded by 2 for a damped mode, and computed so: where w grows,
-    its reflection ``w(-z) = 2 exp(-z^2) - w(z)`` is used instead.
+    It is ``2 / sqrt(pi)`` times the integral of ``exp(kappa (u - s) - s^2)`` over s up to u, and
+    at most 2 for a damped mode. Where w is large, ``w(-z) = 2 exp(-z^2) - w(z)`` replaces it.
 
     Parameters
     ----------
     u : array_like
-        Distance from the top of the bump, in ``sqrt(2) sigma``.
+        Distance from the top of the bump over ``sqrt(2) sigma``.
     kappa : array_like of complex
         ``sqrt(2) sigma lam / v``, of a shape that broadcasts with `u`.
 
@@ -212,12 +187,14 @@ def E(u, kappa):
     -------
     E : ndarray of complex
     """
-    u, kappa = np.broadcast_arrays(u, kappa)
-    E = np.zeros(u.shape, dtype=complex)
-    past = u + kappa.real / 2 > 0
-    near = u * u < FAR
-    side = np.where(past, -1.0, 1.0)[near]
-    E[near] = side * np.exp(-(u[near] ** 2)) * wofz(-1j * side * (u + kappa / 2)[near])
+    u, kappa = np.asarray(u), np.asarray(kappa)
+    z = u + kappa / 2
+    past = z.real > 0
+    side = np.where(past, -1.0, 1.0)
+    near = np.broadcast_to(u * u < FAR, z.shape)
+    E = np.zeros(z.shape, dtype=complex)
+    E[near] = wofz(-1j * (side * z)[near])
+    E *= side * np.exp(-u * u)
     E[past] += 2 * np.exp((kappa * (u + kappa / 4))[past])
     return E
 
@@ -225,27 +202,29 @@ def E(u, kappa):
 def _modes(robot):
     """A as modes: ``f(A) b = Re sum_m right[:, m] f(lam[m]) (left[m] @ b)`` for f entire and real.
 
-    Where modes nearly coincide (critical damping) their eigenvectors do too, and the sum cancels.
-    But f(A) is an entire function of the stiffness, hence its mean over a circle of complex
-    stiffnesses around the real one, and there the modes are apart.
-
-    Returns
-    -------
-    lam : ndarray of complex, shape (modes,)
-    right : ndarray of complex, shape (4, modes)
-    left : ndarray of complex, shape (modes, 4)
+    Near critical damping the eigenvectors nearly coincide and the sum cancels. But f(A) is an
+    entire function of the stiffness, hence its own mean over a circle of complex stiffnesses
+    around the real one, and on the circle the modes are apart. Shapes (modes,), (4, modes) and
+    (modes, 4).
     """
     A = robot.A
     lam, right = np.linalg.eig(A)
-    left = np.linalg.inv(right)
-    # The spectral radius is the condition number in the best units of the state (Bauer).
-    if np.abs(np.linalg.eigvals(np.abs(right) @ np.abs(left))).max() < ILL_CONDITIONED:
+    if _condition(right) < ILL_CONDITIONED:
         half = lam.imag >= 0
-        return lam[half], right[:, half] * np.where(lam[half].imag > 0, 2, 1), left[half]
+        twice = np.where(lam[half].imag > 0, 2, 1)
+        return lam[half], right[:, half] * twice, np.linalg.inv(right)[half]
     # Small against the damping, or exp(lam t) would vary too much along the circle.
-    radius = np.clip((-lam.real / np.abs(lam)).min() / 40, 1e-5, 1e-2)
+    radius = max((-lam.real / np.abs(lam)).min() / 40, 1e-5)
     angle = np.pi * (2 * np.arange(CIRCLE // 2) + 1) / CIRCLE  # the lower half mirrors the upper
     springs = robot.P @ (robot.C * [[1, 0, 1, 0], [0.5, 0, 0.5, 0]])  # unequal: no mode is spared
     lam, right = np.linalg.eig(A + radius * np.exp(1j * angle)[:, None, None] * springs)
     left = np.linalg.inv(right)
     return lam.ravel(), np.hstack(list(right)) * (2 / CIRCLE), left.reshape(-1, 4)
+
+
+def _condition(V):
+    # In the units of the state that suit V best (Bauer); inf if singular.
+    try:
+        return np.abs(np.linalg.eigvals(np.abs(V) @ np.abs(np.linalg.inv(V)))).max()
+    except np.linalg.LinAlgError:
+        return np.inf

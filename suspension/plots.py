@@ -1,4 +1,4 @@
-"""Figures of the report. Each function draws what it is given and returns the axes it drew in."""
+"""Figures of Parts I to III: each function draws what it is given and returns its axes."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,7 +9,6 @@ from suspension.report import WHEEL
 
 __all__ = [
     "plot_confidence_region",
-    "plot_eigenvalues",
     "plot_fit",
     "plot_forces",
     "plot_growth",
@@ -17,7 +16,7 @@ __all__ = [
     "plot_stability",
 ]
 
-MARKERS = "o^sDv"
+MARKERS = "o^sDvPX*"
 
 
 def _axes(ax):
@@ -39,7 +38,9 @@ def plot_fit(fit, data, level=0.95, ax=None):
     x = np.linspace(0, data["delta_over_delta_max"].max(), 201)
     mean = fit.results.get_prediction(np.vander(x, 3, increasing=True))
     low, high = mean.conf_int(alpha=1 - level).T
-    ax.fill_between(x, low, high, color="C5", alpha=0.5, lw=0, label=f"{level:.0%} band of the mean")
+    ax.fill_between(
+        x, low, high, color="C5", alpha=0.5, lw=0, label=f"{level:.0%} band of the mean"
+    )
     ax.plot(x, mean.predicted, color="C0", label="least-squares fit")
     ax.plot(data["delta_over_delta_max"], data["force"], "o", color="C1", mfc="none", label="data")
     ax.set(xlabel=r"$\delta/\delta_{\max}$", ylabel="force $F$ (N)")
@@ -89,16 +90,6 @@ def plot_confidence_region(fit, i=0, j=2, level=0.95, ax=None):
     ax.set(xlabel=rf"$\beta_{i}$ (N)", ylabel=rf"$\beta_{j}$ (N)")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     ax.autoscale_view()
-    return ax
-
-
-def plot_eigenvalues(robot, ax=None):
-    """The eigenvalues of A in the complex plane, 1/s."""
-    ax = _axes(ax)
-    ax.axvline(0, color="0.5", lw=0.8)
-    ax.axhline(0, color="0.5", lw=0.8)
-    ax.plot(robot.eigenvalues.real, robot.eigenvalues.imag, "o")
-    ax.set(xlabel=r"Re $\lambda$ (1/s)", ylabel=r"Im $\lambda$ (1/s)")
     return ax
 
 

@@ -10,10 +10,12 @@ __all__ = [
     "WHEEL",
     "answer",
     "error_rows",
+    "flight_row",
     "join",
     "lost_speeds",
     "matrix_rows",
     "mode_rows",
+    "ranges",
     "say",
     "source",
     "stability_rows",
@@ -156,3 +158,36 @@ def error_rows(trajectories, theta):
         }
         for run in trajectories
     ]
+
+
+def ranges(edges, lost):
+    """Ranges of speed in words, from their edges in m/s and whether contact is lost in each.
+
+    >>> ranges([0.1, 0.4, 30], [False, True])
+    'kept up to 0.4 m/s and lost from there on'
+    """
+    words = []
+    for i, gone in enumerate(lost):
+        where = f"from {edges[i]:.3g} to {edges[i + 1]:.3g} m/s"
+        if len(lost) == 1:
+            where = f"at every speed {where}"
+        elif i == 0:
+            where = f"up to {edges[1]:.3g} m/s"
+        elif i == len(lost) - 1:
+            where = "from there on"
+        words.append(f"{'lost' if gone else 'kept'} {where}")
+    return join(words)
+
+
+def flight_row(flight, robot):
+    """One row of a table of flights: how many, how long, how high, how hard, and settled when."""
+    landings = [event for event in flight.events if event.kind == "landing"]
+    hardest = max(landings, key=lambda event: event.force, default=None)
+    return {
+        "v (m/s)": f"{flight.v:g}",
+        "flights": sum(event.kind == "lift-off" for event in flight.events),
+        "in the air: rear, front (s)": "{:.3f}, {:.3f}".format(*flight.airtime),
+        "highest: rear, front (mm)": "{:.1f}, {:.1f}".format(*1000 * flight.gaps.max(axis=1)),
+        "hardest landing (N)": f"{hardest.force:.1f} ({WHEEL[hardest.wheel]})" if hardest else "–",
+        "settled at (s)": f"{flight.settled(robot):.2f}",
+    }

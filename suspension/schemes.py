@@ -201,9 +201,7 @@ def _determinant(M):
 
 EULER = Scheme("Euler", 1, a=[[0]], b=[1], c=[0])
 BACKWARD_EULER = Scheme("Backward Euler", 1, a=[[1]], b=[1], c=[1])
-CRANK_NICOLSON = Scheme(
-    "Crank-Nicolson", 2, a=[[0, 0], [1 / 2, 1 / 2]], b=[1 / 2, 1 / 2], c=[0, 1]
-)
+CRANK_NICOLSON = Scheme("Crank-Nicolson", 2, a=[[0, 0], [1 / 2, 1 / 2]], b=[1 / 2, 1 / 2], c=[0, 1])
 RK4 = Scheme(
     "RK4",
     4,

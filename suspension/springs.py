@@ -48,7 +48,9 @@ def load_spring_data(path=None):
         else:
             table = pd.read_csv(path)
     except Exception as error:  # each reader fails in its own ways
-        raise ValueError(f"path must be a readable .csv or .mat file, got {path}: {error}") from None
+        raise ValueError(
+            f"path must be a readable .csv or .mat file, got {path}: {error}"
+        ) from None
     missing = [name for name in COLUMNS if name not in table]
     if missing:
         raise ValueError(f"{path.name} must have the columns {COLUMNS}, got {list(table)}")

@@ -1,0 +1,250 @@
+"""Figures of Parts IV to VI: each function draws what it is given and returns its axes."""
+
+from itertools import pairwise
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import TwoSlopeNorm
+from matplotlib.ticker import NullLocator
+
+from suspension.plots import MARKERS
+
+__all__ = [
+    "plot_errors",
+    "plot_flight",
+    "plot_heave",
+    "plot_margin",
+    "plot_margin_map",
+    "plot_missed_dip",
+    "plot_seen_mode",
+    "plot_sensitivities",
+    "plot_travel",
+]
+
+LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))
+
+
+def _axes(ax):
+    return plt.subplots()[1] if ax is None else ax
+
+
+def _speed_axis(ax, v):
+    ticks = [x for x in (0.1, 0.25, 0.5, 1.2, 2.5, 5, 10, 20, 30) if v[0] <= x <= v[-1]]
+    ax.set_xscale("log")
+    ax.set_xticks(ticks, [f"{x:g}" for x in ticks])
+    ax.xaxis.set_minor_locator(NullLocator())
+    ax.set(xlim=(v[0], v[-1]), xlabel="speed $v$ (m/s)")
+
+
+def plot_errors(x, errors, ax=None, floor=None):
+    """Errors against step size or cost, on logarithmic axes.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,), or dict of them
+        Step sizes or costs, for all curves or for each.
+    errors : dict of str to array_like, shape (n,)
+        A curve for each name.
+    floor : float, optional
+        Where roundoff is expected, drawn as a line.
+    """
+    ax = _axes(ax)
+    for k, (name, error) in enumerate(errors.items()):
+        at = x[name] if isinstance(x, dict) else x
+        style = LINES[k % len(LINES)]
+        ax.loglog(at, error, ls=style, marker=MARKERS[k % len(MARKERS)], mfc="none", label=name)
+    if floor:
+        ax.axhline(floor, color="0.5", lw=0.8)
+    ax.legend()
+    return ax
+
+
+def plot_heave(X, heave, ax=None):
+    """Heave against position for several speeds; `heave` is a dict of speed, m/s, to m."""
+    ax = _axes(ax)
+    for (v, y), style in zip(heave.items(), LINES):
+        ax.plot(X, 1000 * y, ls=style, label=f"v = {v:g} m/s")
+    ax.set(xlabel="position $X$ (m)", ylabel=r"$Y - Y_\mathrm{eq}$ (mm)")
+    ax.legend()
+    return ax
+
+
+def plot_seen_mode(dts, seen, true, figure):
+    """Frequency and damping that methods give a mode, against the step; two panels.
+
+    Parameters
+    ----------
+    dts : array_like, shape (n,)
+        Time steps, s.
+    seen : dict of str to array_like of complex, shape (n,)
+        Eigenvalue that each method's runs show, 1/s.
+    true : complex
+        Eigenvalue of the mode, 1/s.
+    """
+    left, right = figure.subplots(1, 2)
+    for (name, value), style in zip(seen.items(), LINES):
+        left.semilogx(dts, value.imag / true.imag, ls=style, label=name)
+        right.semilogx(dts, -value.real / np.abs(value), ls=style)
+    right.axhline(-true.real / abs(true), color="k", lw=0.6)
+    left.set(xlabel=r"$\Delta t$ (s)", ylabel="frequency, computed / true")
+    right.set(xlabel=r"$\Delta t$ (s)", ylabel="damping ratio", ylim=(-0.3, 0.6))
+    figure.legend(loc="outside upper center", ncols=3)
+    return left, right
+
+
+def plot_missed_dip(T, N, steps, forces, axes):
+    """A dip below zero between two steps of an adaptive integrator: overview and close-up.
+
+    Parameters
+    ----------
+    T, N : array_like, shape (n,)
+        Exact force of one wheel.
+    steps, forces : array_like, shape (m,)
+        Where the integrator stopped, and the force there.
+    axes : two Axes
+    """
+    dip = np.argmin(N)
+    after = min(np.searchsorted(steps, T[dip]), len(steps) - 1)
+    for ax in axes:
+        ax.axhline(0, color="0.3", lw=0.8)
+        ax.plot(T, N, label="exact force")
+        ax.plot(steps, forces, "o", color="C1", label="steps of the integrator")
+        ax.set(xlabel="time $t$ (s)", ylabel="normal force (N)")
+    axes[1].set(xlim=(steps[after - 1] - 0.002, steps[after] + 0.002))
+    near = np.abs(T - T[dip]) < steps[after] - steps[after - 1]
+    axes[1].set(ylim=(1.5 * N[dip] - 0.02, N[near].max()))
+    axes[0].legend()
+    return axes
+
+
+def plot_margin(v, N, critical, asked=(), ax=None):
+    """Least force of each wheel against speed, with the speeds at which contact is lost shaded.
+
+    Parameters
+    ----------
+    v : array_like, shape (n,)
+        Speeds, m/s, in order.
+    N : array_like, shape (2, n)
+        Least normal force of the rear and the front wheel, N.
+    critical : array_like
+        Critical speeds, m/s.
+    asked : sequence of float
+        Speeds to mark on the curve of the margin.
+    """
+    ax = _axes(ax)
+    margin = np.min(N, axis=0)
+    edges = [v[0], *critical, v[-1]]
+    for left, right in pairwise(edges):
+        if np.interp(np.sqrt(left * right), v, margin) < 0:
+            ax.axvspan(left, right, color="#fbe3d6", lw=0, zorder=0)
+    ax.axhline(0, color="0.2", lw=0.9)
+    ax.semilogx(v, N[0], color="C0", label="rear wheel")
+    ax.semilogx(v, N[1], "--", color="C1", label="front wheel")
+    ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label="critical speeds", zorder=4)
+    for speed in critical:
+        ax.annotate(f"{speed:.3g}", (speed, 0), (4, 6), textcoords="offset points", weight="bold")
+    at = np.interp(asked, v, margin)
+    ax.plot(asked, at, "o", color="k", mfc="white", ms=6, label="asked in the problem", zorder=4)
+    _speed_axis(ax, v)
+    ax.set(ylabel="least normal force (N)")
+    ax.legend(loc="lower right")
+    return ax
+
+
+def plot_margin_map(v, k, margin, fitted, interval, asked=(), ax=None):
+    """The margin over speed and stiffness, with the line on which the verdict turns.
+
+    Parameters
+    ----------
+    v, k : array_like, shapes (n,) and (m,)
+        Speeds, m/s, and stiffnesses, N/m.
+    margin : array_like, shape (m, n)
+        N.
+    fitted, interval : float and pair of float
+        Stiffness of Part I and its confidence interval, N/m.
+    asked : sequence of float
+        Speeds to mark.
+    """
+    ax = _axes(ax)
+    levels = [-30, -20, -10, -5, 0, 1, 2, 4, 7]
+    filled = ax.contourf(
+        v, k, margin, levels, cmap="RdBu", norm=TwoSlopeNorm(0, -30, 7), extend="min"
+    )
+    ax.contour(v, k, margin, [0], colors="k", linewidths=1.6)
+    ax.axhspan(*interval, color="0.2", alpha=0.18, lw=0)
+    ax.axhline(fitted, color="0.2", lw=1, ls="--")
+    ax.plot(asked, [fitted] * len(asked), "o", color="k", mfc="white", ms=6)
+    _speed_axis(ax, v)
+    ax.grid(False)
+    ax.set(ylabel="stiffness $k$ (N/m)")
+    ax.figure.colorbar(filled, ax=ax, label="margin (N)")
+    return ax
+
+
+def plot_sensitivities(speeds, percent, ax=None):
+    """By how many per cent each critical speed moves for one per cent more of a parameter.
+
+    Parameters
+    ----------
+    speeds : array_like, shape (n,)
+        Critical speeds, m/s.
+    percent : dict of str to array_like, shape (n,)
+        For each parameter.
+    """
+    ax = _axes(ax)
+    place = np.arange(len(percent))
+    for i, (speed, hatch) in enumerate(zip(speeds, ("", "//", "..", "xx", "--"))):
+        height = [values[i] for values in percent.values()]
+        offset = (i - (len(speeds) - 1) / 2) * 0.27
+        ax.bar(place + offset, height, 0.25, hatch=hatch, ec="white", label=f"at {speed:.3g} m/s")
+    ax.axhline(0, color="0.2", lw=0.8)
+    ax.set_xticks(place, list(percent))
+    ax.set(ylabel="change of critical speed (%)\nfor 1 % more")
+    ax.grid(axis="x")
+    ax.legend(ncols=3)
+    return ax
+
+
+def plot_travel(v, compression, pitch, delta_max, axes):
+    """Largest spring compression and pitch against speed, while both wheels press.
+
+    Parameters
+    ----------
+    v, compression, pitch : array_like, shape (n,)
+        Speeds, m/s, compressions, m, pitch angles, rad.
+    delta_max : float
+        Largest displacement at which the spring was measured, m.
+    axes : two Axes
+    """
+    axes[0].semilogx(v, 1000 * np.asarray(compression))
+    axes[0].axhline(
+        1000 * delta_max, color="C1", ls="--", label=r"$\delta_{\max}$, largest measured"
+    )
+    axes[0].set(ylabel="spring compression (mm)", ylim=(0, None))
+    axes[0].legend(loc="lower right")
+    axes[1].semilogx(v, np.degrees(pitch))
+    axes[1].set(ylabel="pitch (degrees)", ylim=(0, None))
+    for ax in axes:
+        _speed_axis(ax, v)
+    return axes
+
+
+def plot_flight(flight, linear, axes):
+    """Forces and heights of the wheels in flight, beside the forces of the linear model.
+
+    Parameters
+    ----------
+    flight : Flight
+    linear : Trajectory
+        The same run with a ground that may pull.
+    axes : two Axes
+    """
+    axes[0].axhline(0, color="0.3", lw=0.8)
+    for i, name in enumerate(("rear", "front")):
+        axes[0].plot(linear.T, linear.N[i], color=f"C{i}", ls=":", lw=1, alpha=0.8)
+        axes[0].plot(flight.T, flight.N[i], color=f"C{i}", ls=LINES[i], label=f"{name} wheel")
+        axes[1].plot(flight.T, 1000 * flight.gaps[i], color=f"C{i}", ls=LINES[i])
+    axes[0].set(ylabel="normal force (N)", title=f"$v$ = {flight.v:g} m/s")
+    axes[1].set(ylabel="wheel above\nground (mm)", xlabel="time $t$ (s)")
+    axes[0].legend(loc="upper right", ncols=2)
+    return axes
