@@ -1,6 +1,7 @@
 # make book | test | lab | notebooks | clean.  Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
-PYTHON ?= python3
+PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
+    $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 14) and print('$(name)')" 2>/dev/null)))
 BIN := .venv/bin
 VENV := .venv/.installed
 NPM := book/npm/node_modules/.package-lock.json
@@ -26,7 +27,7 @@ clean:
 	rm -rf .venv _build book/npm/node_modules suspension.egg-info
 
 $(VENV): requirements.txt pyproject.toml
-	$(PYTHON) -c "import sys; assert (3, 11) <= sys.version_info < (3, 14), 'Python 3.11 to 3.13, please: make PYTHON=python3.12'"
+	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --requirement requirements.txt
 	touch $@

@@ -22,18 +22,18 @@ class NumberedLinks(SphinxPostTransform):
     def run(self, **kwargs):
         """Visit the links of one page."""
         for link in list(self.document.findall(pending_xref)):
-            if link["reftype"] == "myst":
+            if link["reftype"] == "myst" and link["refexplicit"]:
                 self.resolve(link)
         for link in list(self.document.findall(nodes.reference)):
             if "id_link" in link and "refid" in link:
                 self.append_number(link, self.env.docname, link["refid"])
 
     def resolve(self, link):
-        """Replace a link to a labelled figure, table, equation or reference."""
+        """Replace a link to a labelled figure, table, equation, section or reference."""
         label = link.get("reftargetid") or link["reftarget"]
         page, anchor = self.find(label)
-        if page is None or link["refdomain"] == "doc" and page != link["reftarget"]:
-            return  # a heading, a whole page, or an error that MyST will report
+        if page is None or (link["refdomain"] == "doc" and page != link["reftarget"]):
+            return  # an unlabelled heading, a whole page, or an error that MyST will report
         text = nodes.inline("", "", *[child.deepcopy() for child in link.children])
         new = make_refnode(self.app.builder, self.env.docname, page, anchor, text)
         self.append_number(new, page, anchor)
@@ -41,9 +41,8 @@ class NumberedLinks(SphinxPostTransform):
 
     def find(self, label):
         """Page and anchor of a label, or a pair of None."""
-        page, anchor = self.env.domains["std"].anonlabels.get(label, (None, None))
-        if page and self.number(page, anchor):
-            return page, anchor
+        if label in self.env.domains["std"].anonlabels:
+            return self.env.domains["std"].anonlabels[label]
         if label in self.env.domains["math"].equations:
             return self.env.domains["math"].equations[label][0], f"equation-{label}"
         for citation in self.env.domains["cite"].citations:

@@ -1,7 +1,7 @@
 """Sphinx extension: repairs of what the theme and its parts write into every page.
 
-Each repair is a regular expression, its replacement, and the pages that must need it; a repair
-that no page of a whole build needs any more is a warning, so that this list only ever shrinks.
+A repair is a regular expression and its replacement. Those of the theme must find something on
+some page; one that a newer theme no longer needs is a warning, so that it gets removed.
 """
 
 import re
@@ -11,7 +11,7 @@ from sphinx.util import logging
 
 logger = logging.getLogger(__name__)
 
-REPAIRS = {
+OF_THE_THEME = {
     # 540 kB (gzipped) of icons as a script; the style sheet's icon font shows the same ones.
     r'\s*<!-- So that users can add custom icons -->\s*<script defer src="[^"]*fontawesome.js[^>]*>'
     r"</script>": "",
@@ -22,6 +22,9 @@ REPAIRS = {
     # Labels that hide the visible or titled text of a button: axe label-content-name-mismatch.
     r'(<button class="btn search-button-field[^>]*?) aria-label="Search"': r"\1",
     r'(class="theme-switch [^>]*?) title="[^"]*"': r'\1 aria-hidden="true"',
+}
+OF_THE_CONTENT = {
+    # As above, on the button that unfolds a hidden cell.
     r'<summary aria-label="Toggle hidden content">': "<summary>",
     # Roles that browsers have dropped, and a list without items.
     r' role="doc-biblioentry"': "",
@@ -41,14 +44,14 @@ def repair(app, exception):
         if path.is_relative_to(Path(app.outdir, "_static")):
             continue
         text = path.read_text()
-        for pattern, replacement in REPAIRS.items():
+        for pattern, replacement in (OF_THE_THEME | OF_THE_CONTENT).items():
             text, count = re.subn(pattern, replacement, text, flags=re.DOTALL)
             if count:
                 needed.add(pattern)
         path.write_text(text)
     for path in Path(app.outdir).glob(UNUSED_FILES):
         path.unlink()
-    for pattern in REPAIRS.keys() - needed:
+    for pattern in OF_THE_THEME.keys() - needed:
         logger.warning("no page needs this repair any more: %s", pattern)
 
 

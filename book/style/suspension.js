@@ -3,11 +3,25 @@
   // A page that was opened as a file may not read the others to show extracts of them.
   if (location.protocol === "file:") DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
 
+  // Paper is white.
+  let theme;
+  addEventListener("beforeprint", () => {
+    theme = document.documentElement.dataset.theme;
+    document.documentElement.dataset.theme = "light";
+  });
+  addEventListener("afterprint", () => {
+    document.documentElement.dataset.theme = theme;
+  });
+
   const reach = () => {
     // What scrolls sideways can be reached by keyboard.
     for (const box of document.querySelectorAll("article mjx-container, article span.math")) {
       if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
+    }
+    // A table header that is a formula only has a name for checkers and older readers.
+    for (const formula of document.querySelectorAll("article th math:not([aria-label])")) {
+      formula.setAttribute("aria-label", formula.textContent);
     }
     // A slider's handle says its label.
     for (const handle of document.querySelectorAll(".noUi-handle:not([aria-label])")) {
