@@ -1,0 +1,142 @@
+// The numbers behind the picture. Python made every matrix and the road; this only iterates them.
+
+/** A table that Python packed as little-endian doubles. */
+const unpack = (view) =>
+  new Float64Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
+
+/** All tables and facts, with functions that look up what belongs to a choice of the sliders. */
+function readTables(facts, tables) {
+  const table = Object.fromEntries(Object.entries(tables).map(([key, t]) => [key, unpack(t)]));
+  const rows = table.robots.length / 28;
+  return {
+    ...facts,
+    road: makeRoad(facts.road, table.road),
+    robot(k) {
+      const row = table.robots.subarray(28 * k, 28 * (k + 1));
+      const [CD, rest] = [row.subarray(0, 16), row.subarray(16, 20)];
+      return { CD, rest, re: row.subarray(20, 24), im: row.subarray(24) };
+    },
+    step(scheme, k, dt) {
+      const { name, c } = facts.schemes[scheme];
+      const size = table[name].length / rows / facts.dts.length;
+      const row = table[name].subarray((k * facts.dts.length + dt) * size).subarray(0, size);
+      const [M, growth] = [row.subarray(0, size - 5), row.subarray(size - 5, size - 1)];
+      return { M, c, growth, stable: row[size - 1] === 1 };
+    },
+  };
+}
+
+/** road(x, out, i, v): height to out[i], rate of change v dH/dx to out[i + 2]. */
+function makeRoad([start, cell, size], table) {
+  const last = table.length / size - 1;
+  const flat = Array.from({ length: last + 1 }, (_, n) =>
+    table.subarray(size * n, size * (n + 1)).every((c) => c === 0));
+  return (x, out, i, v) => {
+    const at = (x - start) / cell;
+    const n = Math.min(Math.max(Math.floor(at), 0), last);
+    if (flat[n]) {
+      out[i] = out[i + 2] = 0;
+      return;
+    }
+    const s = Math.min(Math.max(2 * (at - n) - 1, -1), 1);
+    let H = 0, slope = 0; // Horner's rule for both
+    for (let j = size * (n + 1) - 1; j >= size * n; j--) {
+      slope = slope * s + H;
+      H = H * s + table[j];
+    }
+    out[i] = H;
+    out[i + 2] = (v * slope * 2) / cell;
+  };
+}
+
+/** Number of steps to cover a time: rounded up, but forgiving roundoff, as in Python. */
+function countSteps(tfinal, dt) {
+  const J = tfinal / dt, whole = Math.round(J);
+  return Math.max(Math.abs(J - whole) <= 1e-9 * J ? whole : Math.ceil(J), 1);
+}
+
+/** What the road does to both wheels at t_n + shift, n = 0 .. J, four numbers a time. */
+function feel({ road, wheels }, v, dt, shift, u) {
+  for (let n = 0; 4 * n < u.length; n++) {
+    const X = v * (n * dt + shift);
+    road(X + wheels[0], u, 4 * n, v);
+    road(X + wheels[1], u, 4 * n + 1, v);
+  }
+  return u;
+}
+
+/**
+ * A function that runs J steps from rest: states W (4 arrays) and normal forces N (2 arrays) at
+ * t = 0, dt, .., J dt. The next run overwrites the arrays: that is much faster than new ones.
+ */
+function makeRunner(data) {
+  let memory = new Float64Array(0), last = null, stages, u;
+  return ({ CD, rest }, { M, c }, v, dt, J) => {
+    const size = J + 1, between = c.filter((c) => c !== 0 && c !== 1);
+    const key = [v, dt, J, ...c].join();
+    if (key !== last) {
+      const parts = 6 + 4 * (1 + between.length);
+      if (memory.length < parts * size) memory = new Float64Array(2 * parts * size);
+      const room = (i) => memory.subarray(6 * size + 4 * i * size, 6 * size + 4 * (i + 1) * size);
+      u = feel(data, v, dt, 0, room(0));
+      const own = between.map((c, i) => feel(data, v, dt, c * dt, room(i + 1)));
+      stages = c.map((c) => (c === 0 ? u : c === 1 ? u.subarray(4) : own[between.indexOf(c)]));
+      last = key;
+    }
+    const rows = Array.from({ length: 6 }, (_, i) => memory.subarray(i * size, (i + 1) * size));
+    const W = rows.slice(0, 4), N = rows.slice(4);
+    const D = CD.subarray(8), x = new Float64Array(4 + 2 * c.length); // [d, D u, D u, ..]
+    for (let n = 0; n <= J; n++) {
+      let N1 = 0, N2 = 0;
+      for (let j = 0; j < 4; j++) {
+        const w = (W[j][n] = rest[j] + x[j]), h = u[4 * n + j];
+        N1 += CD[2 * j] * w + D[2 * j] * h;
+        N2 += CD[2 * j + 1] * w + D[2 * j + 1] * h;
+      }
+      N[0][n] = N1;
+      N[1][n] = N2;
+      if (n === J) break;
+      for (let q = 0; q < c.length; q++) {
+        const h = stages[q];
+        let f1 = 0, f2 = 0;
+        for (let j = 0; j < 4; j++) {
+          f1 += D[2 * j] * h[4 * n + j];
+          f2 += D[2 * j + 1] * h[4 * n + j];
+        }
+        x[4 + 2 * q] = f1;
+        x[5 + 2 * q] = f2;
+      }
+      let d0 = 0, d1 = 0, d2 = 0, d3 = 0;
+      for (let j = 0; j < x.length; j++) {
+        const xj = x[j];
+        d0 += M[4 * j] * xj;
+        d1 += M[4 * j + 1] * xj;
+        d2 += M[4 * j + 2] * xj;
+        d3 += M[4 * j + 3] * xj;
+      }
+      x[0] = d0, x[1] = d1, x[2] = d2, x[3] = d3;
+    }
+    return { W, N, J, dt, v };
+  };
+}
+
+/** First sample without contact and smallest force, with wheel (0 rear, 1 front) and time. */
+function judge({ N, dt }, J) {
+  let margin = Infinity, most = -Infinity, worst = 0, wheel = 0, lost = null;
+  for (let n = 0; n <= J; n++) {
+    const low = N[1][n] < N[0][n] ? 1 : 0;
+    if (N[low][n] < margin) [margin, worst, wheel] = [N[low][n], n, low];
+    if (N[1 - low][n] > most) most = N[1 - low][n];
+    if (lost === null && N[low][n] <= 0) lost = { wheel: low, t: n * dt };
+  }
+  return { margin, most, wheel, t: worst * dt, lost };
+}
+
+/** Largest difference in force from a run with steps `every` times shorter. */
+function difference(a, b, every) {
+  let most = 0;
+  for (const i of [0, 1]) {
+    for (let n = 0; n <= a.J; n++) most = Math.max(most, Math.abs(a.N[i][n] - b.N[i][n * every]));
+  }
+  return most; // NaN once the run is past the largest number
+}

@@ -1,0 +1,75 @@
+// What every panel needs: numbers as text, round numbers for an axis, a pen for a canvas.
+
+const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+
+/** A number in few digits, with a true minus sign and powers of ten. */
+function show(x, digits = 3) {
+  if (!Number.isFinite(x)) return "more than 10³⁰⁰";
+  const [mantissa, power] = x.toExponential(digits - 1).split("e").map(Number);
+  const raised = String(power).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
+  const plain = x === 0 || (power > -4 && power < 5);
+  const text = plain ? String(Number(x.toPrecision(digits))) : `${mantissa}\u00a0×\u00a010${raised}`;
+  return text.replace("-", "−");
+}
+
+/** Round numbers from low to high, at most `count` steps of 1, 2 or 5 times a power of ten. */
+function ticks(low, high, count) {
+  const raw = (high - low) / count, ten = 10 ** Math.floor(Math.log10(raw));
+  const step = ten * [1, 2, 5, 10].find((m) => m * ten >= raw);
+  const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+}
+
+/** A cleared canvas at the screen's resolution, and a pen with the theme's colours. */
+function begin(canvas, colours) {
+  const ratio = window.devicePixelRatio || 1, g = canvas.getContext("2d");
+  const w = canvas.clientWidth, h = canvas.clientHeight;
+  const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.clearRect(0, 0, w, h);
+  g.lineJoin = "round";
+  const pen = {
+    g, w, h,
+    stroke(colour, lineWidth, dash = [], path) {
+      Object.assign(g, { strokeStyle: colours[colour], lineWidth });
+      g.setLineDash(dash);
+      if (path) g.stroke(path);
+    },
+    fill(colour, alpha = 1, path) {
+      Object.assign(g, { fillStyle: colours[colour], globalAlpha: alpha });
+      if (path) g.fill(path);
+      g.globalAlpha = 1;
+    },
+    line(...xy) {
+      g.beginPath();
+      for (let i = 0; i < xy.length; i += 2) g.lineTo(xy[i], xy[i + 1]);
+      g.stroke();
+    },
+    dot(x, y, radius, colour, edge, lineWidth = 1.5) {
+      const path = new Path2D();
+      path.arc(x, y, radius, 0, 2 * Math.PI);
+      if (colour) pen.fill(colour, 1, path);
+      if (edge) pen.stroke(edge, lineWidth, [], path);
+    },
+    text(words, x, y, { align = "left", colour = "soft", bold = false, halo = false } = {}) {
+      g.save();
+      g.font = `${bold ? "600 " : ""}12px ${colours.font}`;
+      g.textAlign = align;
+      pen.stroke("paper", 3); // so that it stays readable across a curve
+      if (halo) g.strokeText(words, x, y);
+      pen.fill(colour);
+      g.fillText(words, x, y);
+      g.restore();
+    },
+    inside(x, y, width, height, draw) {
+      g.save();
+      g.beginPath();
+      g.rect(x, y, width, height);
+      g.clip();
+      draw();
+      g.restore();
+    },
+  };
+  return pen;
+}

@@ -1,0 +1,171 @@
+"""The built book: its pages, links, figures and widgets, and what a browser makes of them."""
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+import yaml
+from bs4 import BeautifulSoup
+
+ROOT = Path(__file__).parents[1]
+
+
+def files_of(entry):
+    """The page of a table-of-contents entry and all below it."""
+    if isinstance(entry, list):
+        return [page for item in entry for page in files_of(item)]
+    own = [entry[key] for key in ("root", "file") if key in entry]
+    below = [entry[key] for key in ("parts", "chapters", "sections", "entries") if key in entry]
+    return own + files_of(below)
+
+
+PAGES = [re.sub(r"\.(md|ipynb)$", "", page)
+         for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))]
+each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
+
+
+@cache
+def parse(path):
+    return BeautifulSoup(path.read_text(), "html.parser")
+
+
+@cache
+def anchors(path):
+    found = parse(path).find_all(lambda tag: tag.has_attr("id") or tag.has_attr("name"))
+    return {tag.get("id") for tag in found} | {tag.get("name") for tag in found}
+
+
+def addresses(soup, *attributes):
+    """Every address that a page links to or loads."""
+    for attribute in attributes:
+        for tag in soup.find_all(attrs={attribute: True}):
+            yield tag[attribute].split()[0] if tag[attribute].strip() else ""
+    for tag in soup.find_all(attrs={"srcset": True}):
+        yield from (part.split()[0] for part in tag["srcset"].split(","))
+
+
+def is_external(address):
+    return urlsplit(address).scheme not in ("", "data") or address.startswith("//")
+
+
+@each_page
+def test_page_is_built_and_has_one_title(book, page):
+    soup = parse(book / f"{page}.html")
+    assert len(soup.find_all("h1")) == 1
+    assert soup.html["lang"] == "en"
+    assert soup.title.get_text(strip=True)
+
+
+@each_page
+def test_internal_links_and_anchors_resolve(book, page):
+    here = book / f"{page}.html"
+    broken = []
+    for address in addresses(parse(here), "href", "src", "data", "poster"):
+        if is_external(address) or address.startswith("data:"):
+            continue
+        parts = urlsplit(address)
+        target = (here.parent / unquote(parts.path)).resolve() if parts.path else here
+        found = target.is_file() and target.is_relative_to(book)
+        if found and parts.fragment and target.suffix == ".html":
+            found = unquote(parts.fragment) in anchors(target)
+        if not found:
+            broken.append(address)
+    assert not broken
+
+
+@each_page
+def test_no_script_style_image_or_font_is_on_another_host(book, page):
+    here = book / f"{page}.html"
+    soup = parse(here)
+    loaded = [*addresses(soup, "src", "data", "poster"),
+              *(link["href"] for link in soup.find_all("link") if link.get("rel") != ["canonical"])]
+    styles = [tag.get_text() for tag in soup.find_all("style")]
+    for address in loaded:
+        path = here.parent / urlsplit(address).path
+        if path.suffix == ".css":
+            styles.append(path.read_text())
+    for style in styles:
+        loaded += re.findall(r"url\(\s*['\"]?([^'\")]+)", style)
+        loaded += re.findall(r"@import\s+['\"]([^'\"]+)", style)
+    assert len(loaded) > 5
+    assert not [address for address in loaded if is_external(address)]
+
+
+@each_page
+def test_figures_have_alt_text_and_caption(book, page):
+    for image in parse(book / f"{page}.html").select("article img"):
+        alt = image.get("alt", "")
+        assert len(alt.split()) >= 3, f"alt text of {image['src']}: {alt!r}"
+        assert not re.search(r"[0-9a-f]{16}|\.(png|svg|jpe?g)\b|[/\\]", alt), alt
+        caption = image.find_parent("figure").figcaption
+        assert len(caption.select_one(".caption-text").get_text().split()) >= 3, image["src"]
+
+
+@each_page
+def test_widget_views_have_their_state(book, page):
+    soup = parse(book / f"{page}.html")
+    views = soup.find_all("script", type="application/vnd.jupyter.widget-view+json")
+    states = soup.find_all("script", type="application/vnd.jupyter.widget-state+json")
+    known = {model for tag in states for model in json.loads(tag.string)["state"]}
+    wanted = {json.loads(tag.string)["model_id"] for tag in views}
+    wanted |= {model for tag in states for model in re.findall(r"IPY_MODEL_(\w+)", tag.string)}
+    assert wanted <= known
+    assert bool(views) == bool(states)
+
+
+def test_every_notebook_page_was_executed(book):
+    for page in PAGES:
+        if page.startswith("notebooks/"):
+            soup = parse(book / f"{page}.html")
+            assert soup.select(".cell_output"), page
+            assert not soup.select(".output.traceback"), page
+
+
+@pytest.fixture(params=["http", "file"])
+def start(request):
+    """Where the book starts: in a sub-folder of a server, or as files."""
+    if request.param == "http":
+        return request.getfixturevalue("site")
+    return request.getfixturevalue("book").as_uri() + "/"
+
+
+@pytest.fixture
+def visit(browser, start):
+    """Open a page on a phone; what it asked for, what it complained of, and the page."""
+    tab = browser.new_page(viewport={"width": 390, "height": 800})
+    asked, complaints = [], []
+    tab.on("request", lambda request: asked.append(request.url))
+    tab.on("requestfailed", lambda request: complaints.append(request.url))
+    tab.on("response", lambda answer: answer.status >= 400 and complaints.append(answer.url))
+    tab.on("pageerror", lambda error: complaints.append(str(error)))
+    tab.on("console", lambda line: line.type == "error" and complaints.append(line.text))
+
+    def go(page):
+        tab.goto(f"{start}{page}.html", wait_until="networkidle")
+        return tab, asked, complaints
+
+    yield go
+    tab.close()
+
+
+@each_page
+def test_in_a_browser(visit, start, page):
+    tab, asked, complaints = visit(page)
+    assert not complaints
+    assert not [url for url in asked if not url.startswith((start, "data:", "blob:"))]
+    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth"), "scrolls sideways"
+    formulas = tab.locator("article .math").count()
+    assert tab.locator("article .math mjx-container").count() >= formulas
+    views = tab.locator("article script[type$='widget-view+json']").count()
+    assert tab.locator("article .jupyter-widgets-view, article .widget-subarea").count() >= views
+
+
+def test_search_finds_a_page(visit):
+    tab, _, complaints = visit("search")
+    tab.locator("main form.bd-search input").fill("robot")
+    tab.keyboard.press("Enter")
+    tab.wait_for_selector("#search-results li a")
+    assert not complaints

@@ -1,0 +1,79 @@
+"""Notebooks are short, executed and compared; nbval itself runs them beside these tests."""
+
+import ast
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from normalise import normalise
+
+ROOT = Path(__file__).parents[1]
+MYST = re.compile(r"\{[a-z:-]+\}`|^(```|:::+) ?\{|^\(.*\)=$", re.MULTILINE)
+PATHS = sorted(ROOT.glob("notebooks/*.ipynb"))
+pytestmark = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+
+
+def code_cells(path):
+    return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+
+
+def is_compared(cell):
+    return "nbval-ignore-output" not in cell.metadata.get("tags", [])
+
+
+def test_is_a_page_of_the_book(path):
+    assert f"notebooks/{path.stem}" in (ROOT / "_toc.yml").read_text()
+
+
+def test_nbval_runs_it_and_compares(path, request):
+    config = request.config
+    assert config.option.nbval and not config.option.nbval_lax
+    assert "notebooks" in config.getini("testpaths")
+
+
+def test_was_executed(path):
+    counts = [cell.execution_count for cell in code_cells(path)]
+    assert counts == list(range(1, len(counts) + 1))
+
+
+def test_stores_numbers_to_compare(path):
+    stored = [str(output) for cell in code_cells(path) if is_compared(cell)
+              for output in cell.outputs]
+    assert any(character.isdigit() for text in stored for character in text)
+
+
+def test_stores_neither_pictures_nor_widgets_nor_errors(path):
+    notebook = nbformat.read(path, as_version=4)
+    outputs = [output for cell in code_cells(path) for output in cell.outputs]
+    mimes = {mime for output in outputs for mime in output.get("data", {})}
+    assert not {mime for mime in mimes if mime.startswith(("image/", "application/"))}
+    assert "widgets" not in notebook.metadata
+    assert not [output for output in outputs if output.output_type == "error"]
+
+
+def test_is_as_make_notebooks_leaves_it(path):
+    notebook = nbformat.read(path, as_version=4)
+    assert normalise(notebook) == notebook
+
+
+def test_a_cell_has_at_most_10_lines_and_a_notebook_60(path):
+    lines = [len([line for line in cell.source.splitlines() if line.strip()])
+             for cell in code_cells(path)]
+    assert max(lines) <= 10
+    assert sum(lines) <= 60
+
+
+def test_no_function_is_longer_than_five_lines(path):
+    for cell in code_cells(path):
+        source = "\n".join(line for line in cell.source.splitlines() if line[:1] not in "%!")
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                assert node.end_lineno - node.lineno < 5, node.name
+
+
+def test_holds_plain_markdown_only(path):
+    """No MyST roles or directives: JupyterLab would show their source."""
+    for cell in nbformat.read(path, as_version=4).cells:
+        if cell.cell_type == "markdown":
+            assert not MYST.search(cell.source)

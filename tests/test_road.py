@@ -1,0 +1,92 @@
+"""Roads: heights, slopes, and what reaches the wheels."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from suspension.road import FlatRoad, GaussianBump, road_input
+from suspension.robot import Robot
+
+ROBOT = Robot(800, 600, L1=0.107, L2=0.09)
+BUMP = GaussianBump()
+BUMPS = st.builds(
+    GaussianBump, height=st.floats(-0.1, 0.1), sigma=st.floats(0.01, 1), centre=st.floats(-2, 2)
+)
+
+
+def central_difference(f, x, h):
+    return (8 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12 * h)
+
+
+def test_bump_is_the_problems_hgauss():
+    x = np.linspace(-1, 2, 301)
+    H = 0.0254 * np.exp(-((x - 0.3) ** 2) / (2 * 0.0288**2))
+    np.testing.assert_allclose(BUMP(x)[0], H, rtol=1e-12, atol=1e-300)
+    np.testing.assert_allclose(BUMP(x)[1], -(x - 0.3) / 0.0288**2 * H, rtol=1e-12, atol=1e-300)
+
+
+@settings(derandomize=True, deadline=None, max_examples=50)
+@given(bump=BUMPS)
+def test_slope_is_the_derivative_of_height(bump):
+    x = bump.centre + bump.sigma * np.linspace(-6, 6, 49)
+    slope = central_difference(lambda x: bump(x)[0], x, 1e-3 * bump.sigma)
+    scale = abs(bump.height) / bump.sigma
+    np.testing.assert_allclose(bump(x)[1], slope, rtol=0, atol=1e-10 * scale)
+
+
+@pytest.mark.parametrize("road", [BUMP, FlatRoad()], ids=["bump", "flat"])
+@pytest.mark.parametrize("x", [0.3, np.zeros(0), np.ones(5), np.ones((2, 3)), [0, 1]])
+def test_road_returns_the_shape_it_is_given(road, x):
+    H, dHdx = road(x)
+    assert np.shape(H) == np.shape(dHdx) == np.shape(x)
+
+
+def test_flat_road_is_level_and_far_from_the_bump_all_roads_are():
+    x = np.array([-1e6, -10.0, 10.0, 1e6])
+    assert not np.any(FlatRoad()(x)) and not np.any(BUMP(x))
+
+
+def test_input_is_what_equations_1_to_4_say():
+    v, t = 1.2, np.linspace(0, 0.6, 25)
+    h1, h2, rate1, rate2 = road_input(ROBOT, BUMP, v, t)
+    np.testing.assert_array_equal(h1, BUMP(v * t - ROBOT.L1)[0])
+    np.testing.assert_array_equal(h2, BUMP(v * t + ROBOT.L2)[0])
+    for i, rate in ((0, rate1), (1, rate2)):
+        slope = central_difference(lambda t, i=i: road_input(ROBOT, BUMP, v, t)[i], t, 1e-5)
+        np.testing.assert_allclose(rate, slope, rtol=0, atol=1e-9)
+
+
+def test_rear_wheel_feels_what_the_front_wheel_felt_a_wheelbase_earlier():
+    v, t = 0.7, np.linspace(0, 1, 101)
+    u, earlier = (road_input(ROBOT, BUMP, v, s) for s in (t, t - (ROBOT.L1 + ROBOT.L2) / v))
+    np.testing.assert_allclose(u[[0, 2]], earlier[[1, 3]], rtol=1e-11, atol=1e-15)
+
+
+def test_input_at_one_time_has_shape_four():
+    assert road_input(ROBOT, BUMP, 1, 0.3).shape == (4,)
+
+
+@pytest.mark.parametrize("road, why", [
+    (lambda x: (np.where(x > 0.5, np.nan, 0), x), r"H not finite at x = 0\.59 m"),
+    (lambda x: (x, np.where(x > 0.5, np.inf, 0)), r"dHdx not finite at x = 0\.59 m"),
+    (lambda x: (0.0, 0.0), r"H of the shape of x, \(3,\), got \(\)"),
+    (lambda x: (x, x[:-1]), r"dHdx of the shape of x, \(3,\), got \(2,\)"),
+])  # fmt: skip
+def test_road_that_returns_nonsense_is_refused_with_the_place(road, why):
+    with pytest.raises(ValueError, match=f"^road must return .*{why}"):
+        road_input(ROBOT, road, 1, [0, 0.25, 0.5])
+
+
+def test_road_with_complex_heights_is_refused():
+    with pytest.raises(ValueError, match="road"):
+        road_input(ROBOT, lambda x: (x + 0.1j, x), 1, [0, 0.25, 0.5])
+
+
+@pytest.mark.parametrize("name, value", [
+    ("height", np.nan), ("height", np.inf), ("sigma", 0), ("sigma", -0.1), ("sigma", np.nan),
+    ("centre", np.inf), ("centre", None),
+])  # fmt: skip
+def test_bump_that_cannot_be_is_refused_by_name(name, value):
+    with pytest.raises(ValueError, match=f"^{name} must be .*, got {value!r}$"):
+        GaussianBump(**{name: value})
