@@ -8,8 +8,8 @@ __all__ = ["array", "interval", "nonnegative", "number", "one_of", "positive", "
 def number(name, value, allowed="a finite number", test=lambda x: True):
     """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
     try:
-        x = float(value)
-    except (TypeError, ValueError):
+        x = np.nan if isinstance(value, str) or np.iscomplexobj(value) else float(value)
+    except (TypeError, ValueError, OverflowError):
         x = np.nan
     if not (np.isfinite(x) and test(x)):
         raise ValueError(f"{name} must be {allowed}, got {value!r}")
@@ -47,7 +47,10 @@ def one_of(name, value, choices):
 def array(name, value, shape=None, dtype=float, finite=True):
     """Return `value` as an array of the given shape; None in `shape` stands for any length."""
     try:
-        x = np.asarray(value, dtype=dtype)
+        x = np.asarray(value)
+        if x.dtype.kind not in ("biufc" if dtype is complex else "biuf"):  # text, objects
+            raise TypeError
+        x = x.astype(dtype, copy=False)
     except (TypeError, ValueError):
         raise ValueError(f"{name} must be an array of numbers, got {value!r}") from None
     if shape is not None and (

@@ -36,13 +36,7 @@ def critical_speeds(robot, bump, vmin, vmax):
     array([ 0.4367,  7.9457, 20.4232])
     """
     vmin, vmax = _range("vmin", vmin, "vmax", vmax)
-    # The margin ripples with the phase that the modes gain between the two wheels, phase / v,
-    # unless v is too slow to make them swing at all: exp(-(omega sigma / v)^2 / 2).
-    omega = np.abs(robot.eigenvalues.imag).max()
-    phase = omega * (robot.L1 + robot.L2 + bump.sigma)
-    slow = np.clip(omega * bump.sigma / 6, vmin, vmax)
-    ripples = np.linspace(1 / vmax, 1 / slow, 2 + int(4 * phase * (1 / slow - 1 / vmax)))
-    x = np.union1d(_logarithmic(vmin, vmax, 50), -np.log(ripples[1:-1]))
+    x = _logarithmic(robot, bump, vmin, vmax)
     return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x)), x))
 
 
@@ -76,8 +70,7 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
         k1 = np.exp(x)
         return margin(replace(robot, k1=k1, k2=k1 * robot.k2 / robot.k1), bump, v)
 
-    ripples = 12 * (robot.L1 + robot.L2 + bump.sigma) / bump.sigma
-    return np.exp(zeros(at, _logarithmic(kmin, kmax, 50 + ripples)))
+    return np.exp(zeros(at, _logarithmic(robot, bump, kmin, kmax)))
 
 
 def sensitivity(robot, bump, v, *names):
@@ -147,8 +140,13 @@ def zeros(f, x):
     return np.sort(np.concatenate([x[y == 0], inside]))
 
 
-def _logarithmic(low, high, per_e):
-    return np.linspace(np.log(low), np.log(high), 2 + int(per_e * np.log(high / low)))
+def _logarithmic(robot, bump, low, high):
+    # The margin ripples with the phase omega (L1 + L2) / v that a mode gains between the wheels.
+    # A bump that lasts for more than a swing, omega sigma / v > 6, leaves the mode at rest. So
+    # there is at most about one ripple in a factor e for each sigma of the wheelbase.
+    ripples = 1 + (robot.L1 + robot.L2) / bump.sigma
+    samples = (20 + 10 * ripples) * np.log(high / low)
+    return np.linspace(np.log(low), np.log(high), 2 + int(samples))
 
 
 def _range(low_name, low, high_name, high):

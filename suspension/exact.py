@@ -65,10 +65,8 @@ def _decaying_cosine_and_sine(beta, omega0_squared, t):
     """``exp(-beta t) cos(omega t)`` and ``exp(-beta t) sin(omega t) / omega``, any damping."""
     omega = np.sqrt(complex(omega0_squared - beta**2))
     slow, fast = np.exp((-beta - 1j * omega) * t), np.exp((-beta + 1j * omega) * t)
-    if abs(omega) < 1e-6 * beta:  # critical: sin(omega t) / omega -> t (1 - (omega t)^2 / 6)
-        sine = np.exp(-beta * t) * t * (1 - (omega * t) ** 2 / 6)
-    else:
-        sine = (fast - slow) / (2j * omega)
+    # (fast - slow) / (2 i omega), without cancellation where the two nearly coincide
+    sine = slow * (np.expm1(2j * omega * t) / (2j * omega) if omega else t)
     return ((fast + slow) / 2).real, sine.real
 
 

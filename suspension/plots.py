@@ -78,8 +78,12 @@ def plot_confidence_region(fit, i=0, j=2, level=0.95, ax=None):
     ax.add_patch(
         Ellipse(centre, width, height, angle=angle, fc="none", ec="C0", lw=1.6, label="ellipse")
     )
-    boxes = [("joint, $p = 3$", "scheffe", 3, "-"), ("joint, $p = 2$", "scheffe", 2, "--"),
-             ("Bonferroni", "bonferroni", 2, "-."), ("one at a time", "individual", 1, ":")]  # fmt: skip
+    boxes = [
+        ("joint, $p = 3$", "scheffe", 3, "-"),
+        ("joint, $p = 2$", "scheffe", 2, "--"),
+        ("Bonferroni", "bonferroni", 2, "-."),
+        ("one at a time", "individual", 1, ":"),
+    ]
     for k, (label, method, p, style) in enumerate(boxes):
         (x0, x1), (y0, y1) = fit.intervals(level, method, p)[[i, j]]
         ax.add_patch(

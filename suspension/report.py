@@ -125,7 +125,7 @@ def mode_rows(robot):
         rows.append(
             {
                 "$k$": k,
-                r"$\lambda_k$ (1/s)": f"{z.real:.4f} {'-' if z.imag < 0 else '+'} {abs(z.imag):.4f}i",
+                r"$\lambda_k$ (1/s)": f"{z:.4f}".replace("j", "i"),
                 "mode": "heave" if abs(w[0]) > robot.L2 * abs(w[2]) else "pitch",
                 "natural frequency (Hz)": f"{abs(z) / (2 * np.pi):.3f}",
                 "damping ratio": f"{-z.real / abs(z):.4f}",

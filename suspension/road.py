@@ -86,7 +86,7 @@ def road_input(robot, road, v, t):
 
 
 def _on_grid(name, value, x):
-    value = np.asarray(value, dtype=float)
+    value = _checks.array(f"road's {name}", value, finite=False)
     if value.shape != x.shape:
         raise ValueError(f"road must return {name} of the shape of x, {x.shape}, got {value.shape}")
     if not np.isfinite(value).all():

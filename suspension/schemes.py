@@ -14,6 +14,7 @@ from suspension import _checks
 __all__ = ["BACKWARD_EULER", "CRANK_NICOLSON", "EULER", "RK4", "Scheme"]
 
 ROUNDOFF = 64 * np.finfo(float).eps
+TOLERANCE = 1e-12  # what eigenvalue solvers and printed tableaux leave
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +56,9 @@ class Scheme:
         b = _checks.array("b", self.b, (None,))
         a = _checks.array("a", self.a, (len(b), len(b)))
         c = _checks.array("c", self.c, (len(b),))
-        if abs(b.sum() - 1) > ROUNDOFF:
+        if abs(b.sum() - 1) > TOLERANCE:
             raise ValueError(f"b must sum to 1, got {b.sum()}")
-        if np.abs(a.sum(axis=1) - c).max() > ROUNDOFF:
+        if np.abs(a.sum(axis=1) - c).max() > TOLERANCE:
             raise ValueError(f"c must be the row sums of a, {a.sum(axis=1)}, got {c}")
         _checks.whole("order", self.order, 1)
         for name, value in (("a", a), ("b", b), ("c", c)):
@@ -108,7 +109,7 @@ class Scheme:
         G : ndarray, shape (s, ..., n, n)
             In s.
         """
-        A, dt = np.asarray(A, dtype=float), _checks.positive("dt", dt)
+        A, dt = _checks.array("A", A), _checks.positive("dt", dt)
         if A.ndim < 2 or A.shape[-1] != A.shape[-2]:
             raise ValueError(f"A must be square, got shape {A.shape}")
         s, n = len(self.b), A.shape[-1]
@@ -119,9 +120,9 @@ class Scheme:
         return np.eye(n) + G.sum(axis=0) @ A, G
 
     def is_stable(self, eigenvalues, dt):
-        """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to roundoff)."""
+        """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to 1e-12)."""
         z = _checks.array("eigenvalues", eigenvalues, dtype=complex) * _checks.positive("dt", dt)
-        return bool((np.abs(self.stability_function(z)) <= 1 + ROUNDOFF).all())
+        return bool((np.abs(self.stability_function(z)) <= 1 + TOLERANCE).all())
 
     def max_stable_dt(self, eigenvalues):
         """The largest step up to which every smaller one is stable too, in s; inf if all are.
@@ -131,7 +132,7 @@ class Scheme:
         positive real part give 0.
         """
         eigenvalues = _checks.array("eigenvalues", eigenvalues, dtype=complex)
-        return min((self._limit(z) for z in eigenvalues.ravel()), default=np.inf)
+        return float(min((self._limit(z) for z in eigenvalues.ravel()), default=np.inf))
 
     def _limit(self, eigenvalue):
         modulus = abs(eigenvalue)
@@ -142,7 +143,9 @@ class Scheme:
             for p in self.polynomials
         )
         slack = (Q * Polynomial(Q.coef.conj()) - P * Polynomial(P.coef.conj())).coef.real
-        slack[np.abs(slack) < ROUNDOFF] = 0.0
+        terms = (Polynomial(np.abs(Q.coef)) ** 2 + Polynomial(np.abs(P.coef)) ** 2).coef
+        # Undamped modes cancel, up to the eigenvalue solver's error in their real parts.
+        slack[np.abs(slack) < TOLERANCE * terms[: len(slack)]] = 0.0
         slack = np.trim_zeros(slack, "f")  # the multiple root at dt = 0 says nothing
         if not slack.size:
             return np.inf
@@ -172,19 +175,27 @@ class Scheme:
             Real and imaginary part of z, in order along the curve.
         """
         n = _checks.whole("n", n, 4)
-        P, Q = self.polynomials
         half = (n + 1) // 2
-        # Each root of R is passed once as phi grows by 2 pi, so half the curve takes degree * pi.
-        phi = max(P.degree(), Q.degree()) * np.pi * (np.arange(half) + 0.5 * (n % 2 == 0)) / half
-        z = np.empty(half, dtype=complex)
-        at, step = 0j, phi[0]
-        for j in range(half):
-            slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
-            roots = (P - np.exp(1j * phi[j]) * Q).roots()
-            at = z[j] = roots[np.abs(roots - (at + step * slope)).argmin()]
-            step = phi[1] - phi[0]
+        degree = max(p.degree() for p in self.polynomials)
+        # The half curve takes pi for every root of R that it goes around: all of them, unless R
+        # has another region of stability and this curve is back on the real axis before.
+        ends = self._follow(np.pi / 64 * np.arange(1, 64 * degree + 1))[63::64]
+        turns = 1 + np.append(np.abs(ends.imag[:-1]) < 1e-9, True).argmax()
+        z = self._follow(turns * np.pi * (np.arange(half) + 0.5 * (n % 2 == 0)) / half)
         z = np.concatenate([z[::-1].conj(), z[n % 2 :]])
         return np.column_stack([z.real, z.imag])
+
+    def _follow(self, phases):
+        """The root of ``R(z) = exp(i phi)`` that starts at z = 0, for growing phases phi."""
+        P, Q = self.polynomials
+        z, at, before = [], 0j, 0.0
+        for phi in phases:
+            slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
+            roots = (P - np.exp(1j * phi) * Q).roots()
+            at = roots[np.abs(roots - (at + (phi - before) * slope)).argmin()]
+            before = phi
+            z.append(at)
+        return np.array(z)
 
 
 def _determinant(M):

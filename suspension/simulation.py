@@ -1,7 +1,7 @@
 """Drive the robot over a road with a one-step method.
 
 The motion is linear, so one step of any scheme is ``w_{n+1} = R w_n + b_n`` with a constant
-matrix R. NumPy runs that recurrence a block of steps at a time.
+matrix R, which `suspension.recurrence` runs many steps at a time.
 """
 
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ import numpy as np
 
 from suspension import _checks
 from suspension.contact import first_loss
+from suspension.recurrence import Recurrence
 from suspension.road import road_input
 from suspension.schemes import RK4, Scheme
 
-__all__ = ["Trajectory", "affine_scan", "simulate", "steps"]
+__all__ = ["Trajectory", "simulate", "steps"]
 
 MAX_STEPS = 10**8
-CHUNK = 4096  # steps whose arrays stay in the processor's cache
-BLOCK = 16  # steps that one matrix product takes at once
+CHUNK = 8192  # steps whose arrays stay in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,27 +95,33 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     array([7.1417, 7.1417])
     """
     v, dt = _checks.number("v", v), _checks.positive("dt", dt)
-    J = steps(tfinal, dt)
-    R, G = scheme.one_step(robot.A, dt)
-    GB, weight = G @ robot.B, (G @ robot.e).sum(axis=0)
-    T = dt * np.arange(J + 1)
-    W, N = np.empty((4, J + 1)), np.empty((2, J + 1))
-    W[:, 0] = robot.equilibrium if w0 is None else _checks.array("w0", w0, (4,))
-    for j in range(0, J + 1, CHUNK):
+    T = dt * np.arange(steps(tfinal, dt) + 1)
+    rest = robot.equilibrium
+    w0 = rest if w0 is None else _checks.array("w0", w0, (4,))
+    W, N = np.empty((4, len(T))), np.empty((2, len(T)))
+    W[:, 0] = w0
+    abscissae, R, H = _drive(robot, scheme, dt)
+    recurrence = Recurrence(R, H)
+    for j in range(0, len(T) - 1, CHUNK):
         t = T[j : j + CHUNK + 1]
-        # The chunk's last sample is the next one's first: known there, computed here.
         u = road_input(robot, road, v, t)
-        b = np.empty((len(t), 4))
-        b[0], b[1:] = W[:, j], weight
-        for c in np.unique(scheme.c):
-            u_c = {0.0: u[:, :-1], 1.0: u[:, 1:]}.get(c)
-            if u_c is None:
-                u_c = road_input(robot, road, v, t[:-1] + c * dt)
-            b[1:] += u_c.T @ GB[scheme.c == c].sum(axis=0).T
+        ends = {0.0: u[:, :-1], 1.0: u[:, 1:]}
+        inputs = [
+            ends[c] if c in ends else road_input(robot, road, v, t[:-1] + c * dt) for c in abscissae
+        ]
+        # About the equilibrium the weight drops out: every scheme stays there exactly.
+        x = recurrence(W[:, j] - rest, *(np.ascontiguousarray(u.T) for u in inputs))
+        W[:, j + 1 : j + len(t)] = x.T + rest[:, None]
         with np.errstate(over="ignore", invalid="ignore"):
-            W[:, j : j + CHUNK + 1] = affine_scan(R, b).T
-            N[:, j : j + CHUNK + 1] = robot.C @ W[:, j : j + CHUNK + 1] + robot.D @ u
+            N[:, j : j + len(t)] = robot.C @ W[:, j : j + len(t)] + robot.D @ u
     return Trajectory(T, W, N, v, dt, scheme)
+
+
+def _drive(robot, scheme, dt):
+    """One step about the equilibrium, ``y -> R y + sum_c H_c u(t + c dt)``: the c, R, the H_c."""
+    R, G = scheme.one_step(robot.A, dt)
+    abscissae = np.unique(scheme.c)
+    return abscissae, R, [(G[scheme.c == c].sum(axis=0)) @ robot.B for c in abscissae]
 
 
 def steps(tfinal, dt):
@@ -126,56 +132,11 @@ def steps(tfinal, dt):
     """
     tfinal, dt = _checks.positive("tfinal", tfinal), _checks.positive("dt", dt)
     J = tfinal / dt
-    J = round(J) if abs(J - round(J)) <= 1e-9 * J else np.ceil(J)
+    if J < MAX_STEPS + 1:
+        J = round(J) if abs(J - round(J)) <= 1e-12 * J else np.ceil(J)
     if J > MAX_STEPS:
         raise ValueError(
             f"dt must give at most {MAX_STEPS:.0e} steps, got dt={dt!r}, "
             f"tfinal={tfinal!r}: {J:.3g} steps"
         )
     return max(int(J), 1)
-
-
-def affine_scan(R, b):
-    """All states of ``x_0 = b_0, x_n = R x_{n-1} + b_n``.
-
-    A block of steps from a zero state is one product with a block Toeplitz matrix of powers
-    of R. The ends of the blocks obey the same recurrence with a power of R, and are found by the
-    same function; one more product carries them into the blocks.
-
-    Parameters
-    ----------
-    R : ndarray, shape (n, n)
-    b : ndarray, shape (m, n)
-
-    Returns
-    -------
-    x : ndarray, shape (m, n)
-        Finite wherever the recurrence, done step by step, is.
-    """
-    x = _scan_blocks(R, b) if len(b) > BLOCK else None
-    return x if x is not None and np.isfinite(x).all() else _scan_steps(R, b)
-
-
-def _scan_steps(R, b):
-    x = b.copy()
-    for n in range(1, len(x)):
-        x[n] += R @ x[n - 1]
-    return x
-
-
-def _scan_blocks(R, b):
-    m, n = b.shape
-    powers = [np.eye(n)]
-    for _ in range(BLOCK):
-        powers.append(powers[-1] @ R.T)
-    toeplitz = np.zeros((BLOCK, n, BLOCK, n))
-    for lag in range(BLOCK):
-        for i in range(BLOCK - lag):
-            toeplitz[i, :, i + lag] = powers[lag]
-    blocks = -(-m // BLOCK)
-    x = np.zeros((blocks, BLOCK * n))
-    x.reshape(-1, n)[:m] = b
-    x = x @ toeplitz.reshape(BLOCK * n, BLOCK * n)
-    ends = affine_scan(powers[BLOCK].T, x[:, -n:])
-    x[1:] += ends[:-1] @ np.stack(powers[1:], axis=1).reshape(n, BLOCK * n)
-    return x.reshape(-1, n)[:m]

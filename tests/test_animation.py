@@ -84,7 +84,8 @@ def test_an_animation_is_saved_as_a_gif_that_moves(tmp_path, stride, frames):
             picture.convert("RGB").crop(below_the_clock) for picture in ImageSequence.Iterator(gif)
         ]
     assert len(pictures) == frames
-    assert all(ImageChops.difference(*pair).getbbox() for pair in pairwise(pictures))
+    # Far more than the palette of a GIF changes: the dark body has gone somewhere else.
+    assert all(np.max(ImageChops.difference(*pair)) > 100 for pair in pairwise(pictures))
 
 
 def test_the_problems_robot_and_bump_are_drawn_unless_others_are_given(tmp_path):

@@ -408,16 +408,16 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     errors = []
     tab.on("pageerror", lambda error: errors.append(str(error)))
     tab.goto(address)
-    tab.wait_for_selector(".jp-Notebook .jp-CodeCell", timeout=90_000)
+    # Asked to run before the kernel is there, JupyterLab asks back which one.
+    kernels = address.replace("lab/tree/drive.ipynb", "api/kernels")
+    for _ in range(180):
+        if "idle" in [kernel["execution_state"] for kernel in tab.request.get(kernels).json()]:
+            break
+        tab.wait_for_timeout(500)
+    tab.wait_for_timeout(1000)
     tab.get_by_role("menuitem", name="Run", exact=True).click()
     tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    # Asked before the kernel is there, JupyterLab asks back which one.
-    choose = tab.locator(".jp-Dialog").get_by_role("button", name="Select", exact=True)
-    canvas = tab.locator(f"{BOX} canvas[aria-label]").first
-    canvas.or_(choose).first.wait_for(timeout=90_000)
-    if choose.is_visible():
-        choose.click()
-    canvas.wait_for(timeout=90_000)
+    tab.wait_for_selector(f"{BOX} canvas[aria-label]", timeout=90_000)
     tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
     assert tab.locator(".suspension-explorer-still").count() == 0
     for control in [*SLIDERS, "Crank-Nicolson"]:

@@ -100,7 +100,7 @@ def test_two_modes_that_never_die_are_least_when_they_meet_long_after(v):
     t, N = turning_points(crossing, 40.0)
     fine = forces(crossing, np.linspace(0, 40, 200_001))[0]
     assert t[N.argmin(axis=1)].max() > 5
-    np.testing.assert_allclose(N.min(axis=1), fine.min(axis=1), rtol=0, atol=1e-4)
+    np.testing.assert_allclose(N.min(axis=1), fine.min(axis=1), rtol=0, atol=1e-3)
     assert (N.min(axis=1) <= fine.min(axis=1) + 1e-12).all()
 
 
