@@ -135,14 +135,18 @@ def plot_margin(v, N, critical, asked=(), ax=None):
     margin = np.min(N, axis=0)
     edges = [v[0], *critical, v[-1]]
     for left, right in pairwise(edges):
-        if np.interp(np.sqrt(left * right), v, margin) < 0:
+        lost = np.interp(np.sqrt(left * right), v, margin) < 0
+        if lost:
             ax.axvspan(left, right, color="#fbe3d6", lw=0, zorder=0)
+        place = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
+        ax.text(np.sqrt(left * right), 1.01, "lost" if lost else "kept", **place)
     ax.axhline(0, color="0.2", lw=0.9)
     ax.semilogx(v, N[0], color="C0", label="rear wheel")
     ax.semilogx(v, N[1], "--", color="C1", label="front wheel")
     ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label="critical speeds", zorder=4)
     for speed in critical:
-        ax.annotate(f"{speed:.3g}", (speed, 0), (4, 6), textcoords="offset points", weight="bold")
+        label = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
+        ax.text(speed, 5.2, f"{speed:.3g}", ha="center", weight="bold", bbox=label, zorder=5)
     at = np.interp(asked, v, margin)
     ax.plot(asked, at, "o", color="k", mfc="white", ms=6, label="asked in the problem", zorder=4)
     _speed_axis(ax, v)
@@ -198,7 +202,7 @@ def plot_sensitivities(speeds, percent, ax=None):
         offset = (i - (len(speeds) - 1) / 2) * 0.27
         ax.bar(place + offset, height, 0.25, hatch=hatch, ec="white", label=f"at {speed:.3g} m/s")
     ax.axhline(0, color="0.2", lw=0.8)
-    ax.set_xticks(place, list(percent))
+    ax.set_xticks(place, list(percent), fontsize=12)
     ax.set(ylabel="change of critical speed (%)\nfor 1 % more")
     ax.grid(axis="x")
     ax.legend(ncols=3)

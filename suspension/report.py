@@ -9,6 +9,7 @@ from IPython.display import Markdown, display
 __all__ = [
     "WHEEL",
     "answer",
+    "confidence",
     "error_rows",
     "flight_row",
     "join",
@@ -191,3 +192,14 @@ def flight_row(flight, robot):
         "hardest landing (N)": f"{hardest.force:.1f} ({WHEEL[hardest.wheel]})" if hardest else "–",
         "settled at (s)": f"{flight.settled(robot):.2f}",
     }
+
+
+def confidence(p):
+    """A probability as a percentage that never claims certainty.
+
+    >>> confidence(0.5), confidence(1.0)
+    ('50.00 %', '> 99.99 %')
+    """
+    if p < 1e-4:
+        return "< 0.01 %"
+    return "> 99.99 %" if p > 0.9999 else f"{100 * p:.2f} %"
