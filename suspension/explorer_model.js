@@ -52,7 +52,7 @@ function makeRoad([start, cell, size], table) {
 /** Number of steps to cover a time: rounded up, but forgiving roundoff, as in Python. */
 function countSteps(tfinal, dt) {
   const J = tfinal / dt, whole = Math.round(J);
-  return Math.max(Math.abs(J - whole) <= 1e-9 * J ? whole : Math.ceil(J), 1);
+  return Math.max(Math.abs(J - whole) <= 1e-12 * J ? whole : Math.ceil(J), 1);
 }
 
 /** What the road does to both wheels at t_n + shift, n = 0 .. J, four numbers a time. */
@@ -139,4 +139,11 @@ function difference(a, b, every) {
     for (let n = 0; n <= a.J; n++) most = Math.max(most, Math.abs(a.N[i][n] - b.N[i][n * every]));
   }
   return most; // NaN once the run is past the largest number
+}
+
+/** The moment `at` steps after the start; between two samples on the straight line that is drawn. */
+function lookUp({ W, N, J, dt }, at) {
+  const place = Math.min(at, J), n = Math.min(Math.floor(place), J - 1), part = place - n;
+  const mix = (x) => (part === 0 ? x[n] : part === 1 ? x[n + 1] : x[n] + part * (x[n + 1] - x[n]));
+  return { t: place * dt, W: W.map(mix), N: N.map(mix) };
 }

@@ -1,4 +1,4 @@
-// The three panels. Each draws one scene: what was computed, and the sample n that is shown.
+// The three panels. Each draws one scene: what was computed, and the moment shown.
 
 const WHEEL = ["rear", "front"];
 const NAMES = ["N₁", "N₂"];
@@ -6,10 +6,10 @@ const FAR = 5000; // pixels
 const DASH = [[], [7, 4]]; // rear solid, front dashed
 
 /** The robot on the road, one scale for both directions; the picture moves along with it. */
-function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, n }) {
+function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now }) {
   const { road, wheels } = data, length = wheels[1] - wheels[0];
   const scale = w / (length * clamp(w / 230, 2, 2.9)); // pixels a metre
-  const X = run.v * n * run.dt, u = new Float64Array(4), spot = new Float64Array(4);
+  const X = run.v * now.t, u = new Float64Array(4), spot = new Float64Array(4);
   wheels.forEach((offset, i) => road(X + offset, u, i, 0));
   const level = (u[0] + u[1]) / 2, climb = level - clamp(level, -0.03, 0.03); // up and down hills
   const px = (x) => w / 2 + (x - X) * scale, py = (y) => h - 44 - (y - climb) * scale;
@@ -32,7 +32,7 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, n })
 
   // How high the body rides and how large a wheel is drawn; the model knows neither.
   const ride = 0.28 * length, r = 0.055 * length;
-  const Y = clamp(run.W[0][n], -0.3, 0.3) || 0, tilt = clamp(run.W[2][n], -1.5, 1.5) || 0;
+  const Y = clamp(now.W[0], -0.3, 0.3) || 0, tilt = clamp(now.W[2], -1.5, 1.5) || 0;
   const ends = wheels.map((offset) => Y + offset * tilt); // Y_i, where the unstretched springs end
   const body = wheels.map((offset, i) => [px(X + offset), py(ends[i] + ride)]);
   body.forEach(([x, top], i) => {
@@ -50,7 +50,7 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, n })
     line(x - 6, hub, x + 9, hub);
     dot(x, hub, r * scale, "paper", WHEEL[i], 3);
 
-    const N = run.N[i][n], foot = py(u[i]), at = x + (i ? 1 : -1) * (r * scale + 16);
+    const N = now.N[i], foot = py(u[i]), at = x + (i ? 1 : -1) * (r * scale + 16);
     const arrow = clamp((34 * N) / run.N[i][0], 0, 110); // 34 pixels for the force at rest
     stroke(WHEEL[i], 2.5);
     line(at, foot, at, foot - arrow);
@@ -63,7 +63,7 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, n })
   line(...body.flat());
   g.lineCap = "butt";
   dot(px(X), py(Y + ride), 5, "paper", "ink", 2);
-  if (Y !== run.W[0][n] || tilt !== run.W[2][n]) {
+  if (Y !== now.W[0] || tilt !== now.W[2]) {
     const style = { align: "center", colour: "alarm", bold: true };
     text("computed far outside this picture", w / 2, 14, style);
   }
@@ -89,7 +89,7 @@ function trace(values, x, y, width) {
 
 /** Both forces against time; broad and pale behind them those of the finest step. */
 function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
-  const { data, run, finest, verdict, truth, n } = scene, end = data.distance / run.v;
+  const { data, run, finest, verdict, truth, now } = scene, end = data.distance / run.v;
   const [left, right, top, bottom] = [40, w - 10, 50, h - 34];
   const floor = Math.min(0, truth.margin), span = truth.most - floor || 1; // of the finest step
   const low = Math.max(Math.min(floor, verdict.margin), floor - 0.7 * span) - 0.05 * span;
@@ -150,8 +150,8 @@ function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
       }
     }
     stroke("soft", 1);
-    line(px(n * run.dt), top, px(n * run.dt), bottom);
-    for (const i of [0, 1]) dot(px(n * run.dt), py(run.N[i][n]), 5, WHEEL[i], "paper");
+    line(px(now.t), top, px(now.t), bottom);
+    for (const i of [0, 1]) dot(px(now.t), py(now.N[i]), 5, WHEEL[i], "paper");
     if (verdict.lost) {
       dot(lost, py(0), 6, null, "alarm", 2.5);
       const align = lost > (left + right) / 2 ? "right" : "left";

@@ -145,6 +145,7 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
     k, c = -robot.C[:, :2].T
     relaxes = (c > 0) & (wheel == "relaxes")
     rate = k / np.where(relaxes, c, np.inf)
+    noise = TOLERANCES["atol"] * np.abs(robot.C).max(axis=1)  # forces the integrator cannot tell
     p, E = contact(w, 0.0, v)
     pressing, t0, x0 = (p >= 0) & (E > 0), np.zeros(2), np.where(relaxes & (p > 0), p, 0)
 
@@ -154,8 +155,8 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
 
     history, legs, events, t = [], [], [], 0.0
     while t < tfinal:
-        gfunc = make_flight_gfunc(robot, road, pressing)
-        start, (t, motion, switched) = t, _leg(gfunc, v, state, pressing, w, t, tfinal, max_step)
+        start, gfunc = t, make_flight_gfunc(robot, road, pressing)
+        t, motion, switched = _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step)
         if motion is not None:
             w = motion(t)
             T = np.concatenate([[start], grid[(grid > start) & (grid < t)], [t]])
@@ -196,7 +197,7 @@ def _contact(robot, road):
     return lambda w, t, v: (C @ w + D @ road_input(robot, road, v, t)).reshape(2, 2, *np.shape(t))
 
 
-def _leg(gfunc, v, state, pressing, w, t, tfinal, max_step):
+def _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step):
     """Integrate to the next switch: when, the motion until then (None if at once), which wheels."""
     solver = DOP853(lambda t, w: gfunc(w, t, v)[0], t, w, tfinal, max_step=max_step, **TOLERANCES)
     times, pieces = [t], []
@@ -207,7 +208,7 @@ def _leg(gfunc, v, state, pressing, w, t, tfinal, max_step):
         if solver.status == "failed" or crawls:
             break
         piece = solver.dense_output()
-        end, switched = _first_switch(state, piece, pressing, solver.t_old, solver.t)
+        end, switched = _first_switch(state, noise, piece, pressing, solver.t_old, solver.t)
         if end > times[-1]:
             times.append(end)
             pieces.append(piece)
@@ -216,12 +217,12 @@ def _leg(gfunc, v, state, pressing, w, t, tfinal, max_step):
     raise RuntimeError(f"road is too rough to integrate at t = {solver.t:g} s")
 
 
-def _first_switch(state, motion, pressing, a, b):
+def _first_switch(state, noise, motion, pressing, a, b):
     """Return the first switch in [a, b], b if none, and which wheels switch then, bool (2,)."""
     edges = np.array([a, *_zeros(lambda t: state(motion, t)[1], a, b), b])
     edges = edges[np.diff(edges, prepend=-np.inf) > SHORTEST]
     for left, right in pairwise(edges.tolist()):
-        push = state(motion, (left + right) / 2)[1] > 0
+        push = state(motion, (left + right) / 2)[1] > np.where(pressing, -noise, noise)
         if (pressing & ~push).any():
             return left, pressing & ~push
         lands = ~pressing & push & (state(motion, right)[0] <= 0)
@@ -246,5 +247,4 @@ def _zeros(f, a, b, halvings=5):
         return _zeros(f, a, middle, halvings - 1) + _zeros(f, middle, b, halvings - 1)
     roots = [chebyshev.chebroots(c) for c in series if np.abs(c[1:]).sum() >= abs(c[0])]
     z = np.concatenate([[], *roots])
-    z = z.real[(np.abs(z.imag) < 1e-6) & (np.abs(z.real) < 1)]
-    return sorted(middle + half * z)
+    return sorted(middle + half * z.real[(np.abs(z.imag) < 1e-6) & (np.abs(z.real) < 1)])

@@ -184,12 +184,14 @@ def flight_row(flight, robot):
     """One row of a table of flights: how many, how long, how high, how hard, and settled when."""
     landings = [event for event in flight.events if event.kind == "landing"]
     hardest = max(landings, key=lambda event: event.force, default=None)
+    touch_down = f"{hardest.force:.1f} ({WHEEL[hardest.wheel]})" if hardest else "–"
     return {
         "v (m/s)": f"{flight.v:g}",
         "flights": sum(event.kind == "lift-off" for event in flight.events),
         "in the air: rear, front (s)": "{:.3f}, {:.3f}".format(*flight.airtime),
         "highest: rear, front (mm)": "{:.1f}, {:.1f}".format(*1000 * flight.gaps.max(axis=1)),
-        "hardest landing (N)": f"{hardest.force:.1f} ({WHEEL[hardest.wheel]})" if hardest else "–",
+        "hardest touch-down (N)": touch_down,
+        "largest force (N)": f"{flight.N.max():.1f}",
         "settled at (s)": f"{flight.settled(robot):.2f}",
     }
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from suspension import _checks
 
-__all__ = ["FlatRoad", "GaussianBump", "road_input"]
+__all__ = ["FlatRoad", "GaussianBump", "profile", "road_input"]
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,15 @@ class GaussianBump:
 
     def __call__(self, x):
         """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`."""
-        s = (np.asarray(x, dtype=float) - self.centre) / self.sigma
-        H = self.height * np.exp(-0.5 * s * s)
-        return H, -s / self.sigma * H
+        s = np.asarray(x, dtype=float) - self.centre
+        s *= 1 / self.sigma  # in place: passes over memory cost more than the exponential
+        H = s * s
+        H *= -0.5
+        H = np.exp(H)
+        H *= self.height
+        s *= H
+        s *= -1 / self.sigma
+        return H, s
 
 
 @dataclass(frozen=True)
@@ -79,10 +85,15 @@ def road_input(robot, road, v, t):
     X = v * np.asarray(t, dtype=float)
     u = np.empty((4, *X.shape))
     for i, offset in enumerate((-robot.L1, robot.L2)):
-        x = X + offset
-        H, dHdx = road(x)
-        u[i], u[i + 2] = _on_grid("H", H, x), v * _on_grid("dHdx", dHdx, x)
+        H, dHdx = profile(road, X + offset)
+        u[i], u[i + 2] = H, v * dHdx
     return u
+
+
+def profile(road, x):
+    """Height and slope of a road at `x`, checked: finite, and of the shape of `x`."""
+    H, dHdx = road(x)
+    return _on_grid("H", H, x), _on_grid("dHdx", dHdx, x)
 
 
 def _on_grid(name, value, x):

@@ -5,13 +5,14 @@ matrix R, which `suspension.recurrence` runs many steps at a time.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from suspension import _checks
 from suspension.contact import first_loss
-from suspension.recurrence import Recurrence
-from suspension.road import road_input
+from suspension.recurrence import Discrete
+from suspension.road import profile
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["Trajectory", "simulate", "steps"]
@@ -99,29 +100,49 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     rest = robot.equilibrium
     w0 = rest if w0 is None else _checks.array("w0", w0, (4,))
     W, N = np.empty((4, len(T))), np.empty((2, len(T)))
+    run = _discrete(robot, scheme, dt)
+    later = run.abscissae[:, None] * dt
+    k, vc = np.array([[robot.k1, robot.k2], [v * robot.c1, v * robot.c2]])[..., None]
+    # About the equilibrium the weight drops out: every scheme stays there exactly.
+    x, offset = None, np.concatenate([rest, robot.C @ rest])[:, None]
+    for j in range(0, len(T), CHUNK):
+        part = slice(j, j + CHUNK)
+        X = v * np.minimum(T[part] + later, T[-1])  # no road is asked for beyond the end
+        H, dHdx = under_wheels(robot, road, X)
+        f = (k * H + vc * dHdx).reshape(-1, X.shape[-1])  # D u
+        y, x = run(run.start(w0 - rest, f) if x is None else x, f)
+        np.add(y[:4], offset[:4], out=W[:, part])
+        np.add(y[4:], offset[4:], out=N[:, part])
     W[:, 0] = w0
-    abscissae, R, H = _drive(robot, scheme, dt)
-    recurrence = Recurrence(R, H)
-    for j in range(0, len(T) - 1, CHUNK):
-        t = T[j : j + CHUNK + 1]
-        u = road_input(robot, road, v, t)
-        ends = {0.0: u[:, :-1], 1.0: u[:, 1:]}
-        inputs = [
-            ends[c] if c in ends else road_input(robot, road, v, t[:-1] + c * dt) for c in abscissae
-        ]
-        # About the equilibrium the weight drops out: every scheme stays there exactly.
-        x = recurrence(W[:, j] - rest, *(np.ascontiguousarray(u.T) for u in inputs))
-        W[:, j + 1 : j + len(t)] = x.T + rest[:, None]
-        with np.errstate(over="ignore", invalid="ignore"):
-            N[:, j : j + len(t)] = robot.C @ W[:, j : j + len(t)] + robot.D @ u
     return Trajectory(T, W, N, v, dt, scheme)
 
 
-def _drive(robot, scheme, dt):
-    """One step about the equilibrium, ``y -> R y + sum_c H_c u(t + c dt)``: the c, R, the H_c."""
-    R, G = scheme.one_step(robot.A, dt)
-    abscissae = np.unique(scheme.c)
-    return abscissae, R, [(G[scheme.c == c].sum(axis=0)) @ robot.B for c in abscissae]
+@lru_cache(maxsize=32)
+def _discrete(robot, scheme, dt):
+    # The road acts by f = D u alone: w' = A w + P f + e, and N = C w + f.
+    C, D = np.vstack([np.eye(4), robot.C]), np.vstack([np.zeros((4, 2)), np.eye(2)])
+    return Discrete(scheme, robot.A, robot.P, C, D, dt)
+
+
+def under_wheels(robot, road, X):
+    """The road under both wheels for the centre of mass at `X`, m.
+
+    Parameters
+    ----------
+    robot : Robot
+        Gives L1 and L2.
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    X : ndarray, shape (s, n)
+
+    Returns
+    -------
+    H, dHdx : ndarray, shape (s, 2, n)
+        Height in m and slope, rear wheel before front.
+    """
+    x = X[:, None, :] + np.array([[-robot.L1], [robot.L2]])
+    H, dHdx = profile(road, x.ravel())
+    return H.reshape(x.shape), dHdx.reshape(x.shape)
 
 
 def steps(tfinal, dt):

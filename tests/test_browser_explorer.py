@@ -170,12 +170,12 @@ def compare(page_run, robot, road):
 @pytest.mark.parametrize("name", PAGES)
 def test_the_page_has_what_simulate_has(visit, pages, name):
     tab, rng = visit(f"{pages.as_uri()}/{name}.html"), np.random.default_rng(7)
-    seen = set()
+    seen = {}
     for _ in range(int(os.environ.get("EXPLORER_SETTINGS", 16))):
         turn(tab, rng)
         run = shown(tab)
-        compare(run, *PAGES[name])
-        seen.add((run[0]["dt"], run[0]["k"], run[0]["scheme"]))
+        seen[tuple(run[0][key] for key in ("v", "dt", "k", "scheme"))] = compare(run, *PAGES[name])
+    print(f"{name}: {len(seen)} settings, largest difference {max(seen.values()):.1e}")
     assert len(seen) > 10
 
 
@@ -356,7 +356,8 @@ def test_every_explorer_of_the_book(visit, site, book):
                 assert pictures(tab, nth) != before[1], (page, name)
             for _ in range(4):
                 turn(tab, rng, nth)
-                compare(shown(tab, nth), the_robot(), GaussianBump())
+                if nth == 0:  # a page's first explorer drives the problem's robot over its bump
+                    compare(shown(tab, nth), the_robot(), GaussianBump())
 
 
 @pytest.fixture(scope="module")

@@ -300,6 +300,55 @@ def test_a_robot_that_starts_in_the_air_lands_first(wheel):
     assert touching.events == (Event(1, "landing", 0, 0, 0), Event(2, "landing", 0, 0, 0))
 
 
+def test_a_wheel_that_starts_pulled_off_relaxes_from_where_it_stands():
+    flight = fly(LOPSIDED, FlatRoad(), v=0, tfinal=0.02, w0=[-0.005, 1, 0, 0], wheel="relaxes")
+    assert flight.events == () and flight.legs == ((0, 0.02, (False, False)),)
+    x = np.exp(-np.outer([800 / 20, 500 / 5], flight.T)) * 0.005
+    height = flight.W[0]  # theta stays 0
+    assert height[-1] > 0.01
+    np.testing.assert_allclose(flight.gaps, x + height, atol=1e-12)
+
+
+def test_two_wheels_that_land_one_after_the_other_land_at_their_own_times():
+    drop, tilt = 0.02, 1e-5
+    flight = fly(ROBOT, FlatRoad(), v=0, tfinal=0.1, w0=[drop, 0, tilt, 0])
+    heights = np.array([drop - tilt * ROBOT.L1, drop + tilt * ROBOT.L2])
+    landings = flight.events[:2]
+    assert [(e.wheel, e.kind) for e in landings] == [(1, "landing"), (2, "landing")]
+    np.testing.assert_allclose([e.t for e in landings], np.sqrt(2 * heights / ROBOT.g), atol=1e-9)
+
+
+@pytest.mark.parametrize("centre", [0.3, 0.305, 0.31, 0.315])
+def test_a_narrow_bump_is_not_stepped_over(centre):
+    bump = GaussianBump(height=1e-4, sigma=0.001, centre=centre)
+    truth = simulate(ROBOT, bump, v=10, dt=1e-6, tfinal=0.045).W[:, -1]
+    assert np.abs(truth - ROBOT.equilibrium).max() > 1e-5
+    for road in (bump, lambda x: bump(x)):  # the second does not tell its size
+        flight = fly(ROBOT, road, v=10, tfinal=0.045)
+        np.testing.assert_allclose(flight.W[:, -1], truth, atol=1e-9)
+
+
+def test_no_switch_is_made_of_roundoff():
+    """Without weight a wheel far from the bump feels a force of 1e-200 N, and then nothing."""
+    flight = fly(Robot(800, 800, g=0), GaussianBump(centre=0.9), v=1.2, tfinal=1.3)
+    assert [(e.wheel, e.kind) for e in flight.events] == [
+        (2, "lift-off"),
+        (1, "lift-off"),
+        (1, "landing"),
+        (1, "lift-off"),
+    ]
+    hill = fly(
+        ROBOT,
+        lambda x: (BUMP(x)[0] + 100, BUMP(x)[1]),
+        v=1.2,
+        tfinal=0.68,
+        w0=np.add(ROBOT.equilibrium, [100, 0, 0, 0]),
+    )
+    level = run(ROBOT, 1.2, 0.68, "follows")
+    for event, other in zip(hill.events, level.events, strict=True):
+        assert event[:2] == other[:2] and abs(event.t - other.t) < 1e-8
+
+
 def test_settled():
     quiet = run(ROBOT, 0.25, 5, "follows")
     t = quiet.settled(ROBOT)
@@ -337,6 +386,8 @@ def test_gfunc_gives_the_forces_it_uses():
     wdot, N1, N2 = gfunc(w, 0.1, 1.2)
     assert N1 > 0 and N2 == 0
     np.testing.assert_allclose(wdot, [0.1, N1 / ROBOT.m - ROBOT.g, 0, -N1 * ROBOT.L1 / ROBOT.Izz])
+    falls = gfunc(np.array([0.001, -1, 0, 0]), 0, 0)  # the damper would push, were it on the ground
+    np.testing.assert_allclose(falls[0], [-1, -ROBOT.g, 0, 0])
     linear = make_flight_gfunc(ROBOT, BUMP, (True, True), start=0.04)
     u = road_input(ROBOT, BUMP, 1.2, 0.1)
     np.testing.assert_allclose(linear(w, 0.06, 1.2)[0], ROBOT.A @ w + ROBOT.B @ u + ROBOT.e)
