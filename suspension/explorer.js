@@ -119,7 +119,7 @@ function render({ model, el }) {
   const canvases = Object.entries(PANELS).map(([name, draw]) =>
     [make(panels, "canvas", `se-${name}`, { role: "img" }), draw]);
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  let scene = null, stale = true, frame = 0, timer = 0, playing = null;
+  let scene = null, stale = true, frame = 0, timer = 0, playing = null, drawn = "";
 
   const update = () => {
     if (stale) scene = makeScene(model, data, runs, scene);
@@ -148,7 +148,12 @@ function render({ model, el }) {
     update();
     const style = getComputedStyle(root), colours = { font: style.fontFamily };
     for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`);
-    for (const [canvas, draw] of canvases) draw(begin(canvas, colours), scene);
+    const { k, scheme, dt } = scene, { clientWidth, clientHeight } = canvases[2][0];
+    const modes = [k, scheme, dt, clientWidth, clientHeight, devicePixelRatio, colours.ink].join();
+    for (const [canvas, draw] of canvases) {
+      if (draw !== drawStability || modes !== drawn) draw(begin(canvas, colours), scene);
+    }
+    drawn = modes; // the region does not change with the speed or the moment
     const pace = SECONDS / scene.end;
     write(clock, `t = ${show(scene.now.t)} s, played ` +
       (pace < 1 ? `${show(1 / pace, 2)} × faster` : `${show(pace, 2)} × slower`) + " than real");
@@ -199,6 +204,7 @@ function render({ model, el }) {
   for (const name of SETTINGS) {
     changes[name] = () => {
       stale = true;
+      if (scene && !frame) update(); // the wait for the next frame is put to use
       schedule();
     };
   }

