@@ -14,7 +14,7 @@ from suspension import _checks
 
 __all__ = ["region", "road_table", "robot_table", "step_table", "vary_stiffness"]
 
-NODES = np.array([-1, -0.5, 0.5, 1])  # where a cell, -1 to 1, meets the road
+NODES = -np.cos(np.pi * np.arange(5) / 4)  # where a cell, -1 to 1, meets the road
 POWERS = np.arange(2 * len(NODES))
 GOAL = (1e-13, 1e-12)  # error of a height, m, and of a slope
 LIMIT = (1e-12, 1e-10)  # what a reader should be told of
@@ -86,11 +86,11 @@ def robot_table(robots):
     ])  # fmt: skip
 
 
-def road_table(road, start, stop, max_cells=8192):
-    """The road as a polynomial of degree 7 in each of many equal cells.
+def road_table(road, start, stop, max_cells=4096):
+    """The road as a polynomial of degree 9 in each of many equal cells.
 
-    It has the road's height and slope at four points of the cell. A cubic between two points would
-    need some fifty times as many numbers to be as exact in the slope, which the dampers feel.
+    It has the road's height and slope at five points of the cell. A cubic between two points would
+    need a hundred times as many numbers to be as exact in the slope, which the dampers feel.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def road_table(road, start, stop, max_cells=8192):
 
     Returns
     -------
-    table : ndarray, shape (cells, 8)
+    table : ndarray, shape (cells, 10)
         ``H = sum_j table[i, j] s^j``, with s from -1 to 1 across cell i.
 
     Raises
@@ -117,7 +117,7 @@ def road_table(road, start, stop, max_cells=8192):
         If the road is too rough, for example has a kink; the page then differs from `simulate`.
     """
     between = (NODES[:-1] + NODES[1:]) / 2
-    cells = 4096
+    cells = 2048
     while True:
         half = (stop - start) / cells / 2
         middle = start + half * (2 * np.arange(cells) + 1)

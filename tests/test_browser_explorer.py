@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from ipywidgets.embed import embed_data
 from nbformat.v4 import new_code_cell, new_notebook
+from test_explorer import PARITY, largest_difference
 
 from suspension.contact import first_loss
 from suspension.course import the_robot
@@ -29,7 +30,6 @@ from suspension.robot import Robot
 from suspension.simulation import simulate
 
 ROOT = Path(__file__).parents[1]
-PARITY = 1e-9
 BOX = ".suspension-explorer-box"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Moment"]
 STATE = "application/vnd.jupyter.widget-state+json"
@@ -158,10 +158,7 @@ def compare(page_run, robot, road):
     robot = vary_stiffness(robot)[0][page["k"]]
     scheme = SCHEMES[page["scheme"]]
     run = simulate(robot, road, v=page["v"], dt=page["dt"], tfinal=1.25 / page["v"], scheme=scheme)
-    ours = np.vstack([run.W, run.N])
-    assert rows.shape == ours.shape
-    scale = np.maximum(np.maximum.accumulate(np.abs(ours), axis=1), 1)
-    difference = (np.abs(rows - ours) / scale).max()
+    difference = largest_difference(rows, run)
     assert difference < PARITY, page["v"]
     assert first_loss(run.T, rows[4:]) == run.loss
     return difference

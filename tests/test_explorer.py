@@ -60,11 +60,12 @@ def at(explorer, v, dt_index, k_index, scheme_index):
 
 
 def largest_difference(page, run):
-    """Between all of [W, N]; relative to the largest value so far where that is above 1."""
-    ours = np.vstack([run.W, run.N])
-    assert page.shape == ours.shape
-    scale = np.maximum(np.maximum.accumulate(np.abs(ours), axis=1), 1)
-    return (np.abs(page - ours) / scale).max()
+    """Between all of [W, N]; relative to the largest state, or force, so far if that is above 1."""
+    assert page.shape == (6, len(run.T))
+    return max(
+        (np.abs(rows - ours) / np.maximum.accumulate(np.maximum(np.abs(ours).max(axis=0), 1))).max()
+        for rows, ours in ((page[:4], run.W), (page[4:], run.N))
+    )
 
 
 def run_in_node(folder, explorer, settings):
