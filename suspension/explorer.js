@@ -125,6 +125,9 @@ function render({ model, el }) {
     if (stale) scene = makeScene(model, data, runs, scene);
     stale = false;
     scene.now = lookUp(scene.run, ((model.get("time") / data.moments) * scene.end) / scene.dt);
+    const pace = SECONDS / scene.end;
+    write(clock, `t = ${show(scene.now.t)} s, played ` +
+      (pace < 1 ? `${show(1 / pace, 2)} × faster` : `${show(pace, 2)} × slower`) + " than real");
   };
   const speak = () => {
     timer = 0;
@@ -143,9 +146,8 @@ function render({ model, el }) {
   };
   const paint = () => {
     frame = 0;
+    update(); // before the layout is asked for, so that once is enough
     if (!root.clientWidth) return; // not on the page yet; its first size will bring us back
-    const first = !scene;
-    update();
     const style = getComputedStyle(root), colours = { font: style.fontFamily };
     for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`);
     const { k, scheme, dt } = scene, { clientWidth, clientHeight } = canvases[2][0];
@@ -153,11 +155,8 @@ function render({ model, el }) {
     for (const [canvas, draw] of canvases) {
       if (draw !== drawStability || modes !== drawn) draw(begin(canvas, colours), scene);
     }
+    if (!drawn) speak();
     drawn = modes; // the region does not change with the speed or the moment
-    const pace = SECONDS / scene.end;
-    write(clock, `t = ${show(scene.now.t)} s, played ` +
-      (pace < 1 ? `${show(1 / pace, 2)} × faster` : `${show(pace, 2)} × slower`) + " than real");
-    if (first) speak();
     timer ||= setTimeout(speak, PAUSE);
     root.dispatchEvent(new Event("painted")); // for those who measure
   };

@@ -65,6 +65,13 @@ function feel({ road, wheels }, v, dt, shift, u) {
   return u;
 }
 
+/** A row of a matrix that is stored by columns of `size` numbers, times a vector. */
+const row = (M, i, size, a, b, c, d) =>
+  M[i] * a + M[i + size] * b + M[i + 2 * size] * c + M[i + 3 * size] * d;
+
+/** The force that the road adds at wheel i, from the four numbers at u[j]. */
+const felt = (D, i, u, j) => row(D, i, 2, u[j], u[j + 1], u[j + 2], u[j + 3]);
+
 /**
  * A function that runs J steps from rest: states W (4 arrays) and normal forces N (2 arrays) at
  * t = 0, dt, .., J dt. The next run overwrites the arrays: that is much faster than new ones.
@@ -85,36 +92,24 @@ function makeRunner(data) {
     }
     const rows = Array.from({ length: 6 }, (_, i) => memory.subarray(i * size, (i + 1) * size));
     const W = rows.slice(0, 4), N = rows.slice(4);
-    const D = CD.subarray(8), x = new Float64Array(4 + 2 * c.length); // [d, D u, D u, ..]
-    for (let n = 0; n <= J; n++) {
-      let N1 = 0, N2 = 0;
-      for (let j = 0; j < 4; j++) {
-        const w = (W[j][n] = rest[j] + x[j]), h = u[4 * n + j];
-        N1 += CD[2 * j] * w + D[2 * j] * h;
-        N2 += CD[2 * j + 1] * w + D[2 * j + 1] * h;
-      }
-      N[0][n] = N1;
-      N[1][n] = N2;
+    const [W0, W1, W2, W3] = W, [N1, N2] = N, D = CD.subarray(8);
+    let [d0, d1, d2, d3] = [0, 0, 0, 0]; // deviation from rest
+    for (let n = 0; ; n++) {
+      const w0 = (W0[n] = rest[0] + d0), w1 = (W1[n] = rest[1] + d1);
+      const w2 = (W2[n] = rest[2] + d2), w3 = (W3[n] = rest[3] + d3);
+      N1[n] = row(CD, 0, 2, w0, w1, w2, w3) + felt(D, 0, u, 4 * n);
+      N2[n] = row(CD, 1, 2, w0, w1, w2, w3) + felt(D, 1, u, 4 * n);
       if (n === J) break;
-      for (let q = 0; q < c.length; q++) {
-        const h = stages[q];
-        let f1 = 0, f2 = 0;
-        for (let j = 0; j < 4; j++) {
-          f1 += D[2 * j] * h[4 * n + j];
-          f2 += D[2 * j + 1] * h[4 * n + j];
-        }
-        x[4 + 2 * q] = f1;
-        x[5 + 2 * q] = f2;
+      let x0 = row(M, 0, 4, d0, d1, d2, d3), x1 = row(M, 1, 4, d0, d1, d2, d3);
+      let x2 = row(M, 2, 4, d0, d1, d2, d3), x3 = row(M, 3, 4, d0, d1, d2, d3);
+      for (let q = 0, m = 16; q < stages.length; q++, m += 8) {
+        const f1 = felt(D, 0, stages[q], 4 * n), f2 = felt(D, 1, stages[q], 4 * n);
+        x0 += M[m] * f1 + M[m + 4] * f2;
+        x1 += M[m + 1] * f1 + M[m + 5] * f2;
+        x2 += M[m + 2] * f1 + M[m + 6] * f2;
+        x3 += M[m + 3] * f1 + M[m + 7] * f2;
       }
-      let d0 = 0, d1 = 0, d2 = 0, d3 = 0;
-      for (let j = 0; j < x.length; j++) {
-        const xj = x[j];
-        d0 += M[4 * j] * xj;
-        d1 += M[4 * j + 1] * xj;
-        d2 += M[4 * j + 2] * xj;
-        d3 += M[4 * j + 3] * xj;
-      }
-      x[0] = d0, x[1] = d1, x[2] = d2, x[3] = d3;
+      d0 = x0, d1 = x1, d2 = x2, d3 = x3;
     }
     return { W, N, J, dt, v };
   };

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import socket
 import subprocess
 import sys
@@ -56,9 +55,8 @@ def pages(tmp_path_factory):
     assets = module_from_spec(spec)
     spec.loader.exec_module(assets)
     folder = tmp_path_factory.mktemp("pages")
-    (folder / "widgets").mkdir()
     for source in assets.FILES["widgets"]:
-        shutil.copy(source, folder / "widgets")
+        assets.copy(source, folder / "widgets" / source.name)
     scripts = "".join(f'<script src="widgets/{name}"></script>' for name in assets.WIDGET_SCRIPTS)
     for name, (robot, road) in PAGES.items():
         box = explore(robot, road)

@@ -4,6 +4,7 @@ npm has put MathJax, require.js and the widget manager into ``book/npm/node_modu
 and integrity; anywidget's module comes from the installed wheel, so that both halves match.
 """
 
+import re
 import shutil
 from importlib.util import find_spec
 from pathlib import Path
@@ -28,6 +29,9 @@ FILES = {
         ANYWIDGET,
     ],
 }
+# The widget manager also brings ipywidgets 7, for notebooks of that time: a quarter of its weight.
+OLD_WIDGETS = re.compile(r"""(?sx) /\*! [^*]* \*/ \s* define\("@jupyter-widgets/(base|controls)7"
+                             .*? (?=/\*! [^*]* \*/ \s* define\()""")
 WIDGET_SCRIPTS = ["require.js", "widget_paths.js", "embed-amd.js"]  # in this order
 
 
@@ -48,11 +52,21 @@ def copy_files(app):
             # MathJax looks for fonts and extensions at their places beside its main file.
             tail = source.relative_to(NODE_MODULES / "mathjax/es5") if folder == "mathjax" else ""
             target = Path(app.outdir, "_static", folder, tail or source.name)
-            if source.is_dir():
-                shutil.copytree(source, target, dirs_exist_ok=True)
-            else:
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, target)
+            copy(source, target)
+
+
+def copy(source, target):
+    """Copy a folder or a file; the widget manager without what no page of this book needs."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if source.is_dir():
+        shutil.copytree(source, target, dirs_exist_ok=True)
+    elif source.name == "embed-amd.js":
+        text, parts = OLD_WIDGETS.subn("", source.read_text(encoding="utf-8"))
+        if parts != 2:
+            raise ExtensionError(f"{source} holds {parts} parts of ipywidgets 7, not 2")
+        target.write_text(text, encoding="utf-8")
+    else:
+        shutil.copyfile(source, target)
 
 
 def setup(app):

@@ -32,7 +32,11 @@
   addEventListener("resize", reach);
   addEventListener("load", () => {
     reach();
+    // MathJax and the widgets add to the text later. A widget at work changes nothing of this.
+    const added = new MutationObserver((changes) => {
+      if (changes.some(({ target }) => !target.closest(".jupyter-widgets"))) reach();
+    });
     const article = document.querySelector("article");
-    if (article) new MutationObserver(reach).observe(article, { childList: true, subtree: true });
+    if (article) added.observe(article, { childList: true, subtree: true });
   });
 })();
