@@ -103,7 +103,8 @@ def RK4(gfunc_handle, w0, deltat, tfinal, v):
         output = gfunc_handle(w, t, v)
         return output[0] if isinstance(output, tuple) else output
 
-    w0, deltat = _checks.array("w0", w0, (None,)), _checks.positive("deltat", deltat)
+    w0 = _checks.array("w0", w0, (None,))
+    deltat = _checks.positive("deltat", deltat)
     T = deltat * np.arange(steps(tfinal, deltat) + 1)
     W = np.empty((len(w0), len(T)))
     W[:, 0] = w0
@@ -136,7 +137,8 @@ def crank_nicolson(A, F, w0, deltat, tfinal):
     W : ndarray, shape (n, J+1)
     T : ndarray, shape (J+1,)
     """
-    w0, deltat = _checks.array("w0", w0, (None,)), _checks.positive("deltat", deltat)
+    w0 = _checks.array("w0", w0, (None,))
+    deltat = _checks.positive("deltat", deltat)
     A = _checks.array("A", A, (len(w0), len(w0)))
     half, identity = deltat / 2 * A, np.eye(len(A))
     lu = lu_factor(identity - half)
@@ -144,6 +146,6 @@ def crank_nicolson(A, F, w0, deltat, tfinal):
     W = np.empty((len(A), len(T)))
     W[:, 0] = w0
     for j, t in enumerate(T[:-1]):
-        forcing = deltat / 2 * (F(t) + F(t + deltat))
-        W[:, j + 1] = lu_solve(lu, (identity + half) @ W[:, j] + forcing, check_finite=False)
+        b = (identity + half) @ W[:, j] + deltat / 2 * (F(t) + F(t + deltat))
+        W[:, j + 1] = lu_solve(lu, b, check_finite=False)
     return W, T

@@ -106,6 +106,10 @@ def test_figures_have_alt_text_and_caption(book, page):
         assert len(caption.select_one(".caption-text").get_text().split()) >= 3, image["src"]
 
 
+def test_the_landing_page_shows_a_figure(book):
+    assert parse(book / "book/index.html").select("article figure img")
+
+
 @each_page
 def test_widget_views_have_their_state(book, page):
     soup = parse(book / f"{page}.html")

@@ -18,6 +18,7 @@ from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 logger = logging.getLogger(__name__)
+PICTURES = {"image/svg+xml": (".svg", str.encode), "image/png": (".png", base64.b64decode)}
 
 
 def notebooks_first(app, env, pages):
@@ -68,8 +69,12 @@ class ResultDirective(SphinxDirective):
     def run(self):
         """Show the richest form the notebook gave."""
         data = find(self.env, self.arguments[0], self.get_location())
-        if "image/png" in data:
-            return [self.figure(base64.b64decode(data["image/png"]))]
+        for mime, (suffix, decode) in PICTURES.items():
+            if mime in data:
+                return [self.figure(decode(data[mime]), suffix)]
+        if self.content:
+            logger.warning("%s is no picture, yet has a caption", self.arguments[0],
+                           location=self.get_location())
         if "text/html" in data:
             return [nodes.container("", nodes.raw("", data["text/html"], format="html"),
                                     classes=["pst-scrollable-table-container"])]
@@ -82,9 +87,9 @@ class ResultDirective(SphinxDirective):
         self.state.nested_parse(lines, self.content_offset, node)
         return node.children
 
-    def figure(self, data):
+    def figure(self, data, suffix):
         """The image as a numbered figure."""
-        name = hashlib.sha256(data).hexdigest() + ".png"
+        name = hashlib.sha256(data).hexdigest() + suffix
         path = Path(self.env.mystnb_config.output_folder, name)
         path.write_bytes(data)
         uri = "/" + Path(os.path.relpath(path, self.env.srcdir)).as_posix()
