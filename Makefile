@@ -13,9 +13,9 @@ BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
 book: $(VENV) $(NPM)
 	$(BUILD)
 
-test: $(VENV) $(NPM)
+test: book
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 lab: $(VENV)
 	$(BIN)/jupyter lab --notebook-dir=notebooks

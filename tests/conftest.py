@@ -2,9 +2,6 @@
 
 import os
 import shutil
-import subprocess
-import sys
-import tempfile
 import threading
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -17,63 +14,13 @@ FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]
 
 
-def needs_book(item):
-    """Whether a test reads the built book."""
-    return "book" in getattr(item, "fixturenames", ())
-
-
-def pytest_collection_modifyitems(items):
-    """Tests of the book come last: until then it is built beside the others."""
-    items.sort(key=needs_book)
-
-
-def pytest_collection_finish(session):
-    """Start to build the book if a test needs it; BOOK_HTML=_build/html takes a finished one."""
-    wanted = any(map(needs_book, session.items)) and not session.config.option.collectonly
-    if wanted and "BOOK_HTML" not in os.environ:
-        session.config.stash[BUILD] = Build()
-
-
-def pytest_sessionfinish(session):
-    """Leave no build behind."""
-    if BUILD in session.config.stash:
-        session.config.stash[BUILD].end()
-
-
-class Build:
-    """The book, being built in a folder of its own."""
-
-    def __init__(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="book-")
-        self.log = Path(self.folder.name, "log")
-        with self.log.open("w") as log:
-            self.process = subprocess.Popen(
-                [Path(sys.executable).with_name("jupyter-book"), "build", ".", "--all", "-W", "-n",
-                 "--keep-going", "--path-output", self.folder.name],
-                cwd=ROOT, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
-
-    def html(self):
-        """Wait for the pages."""
-        failed = self.process.wait()
-        assert not failed, "\n".join(self.log.read_text().splitlines()[-60:])
-        return Path(self.folder.name, "_build", "html").resolve()
-
-    def end(self):
-        """Stop and remove it."""
-        self.process.terminate()
-        self.process.wait()
-        self.folder.cleanup()
-
-
-BUILD = pytest.StashKey[Build]()
-
-
 @pytest.fixture(scope="session")
-def book(request):
-    """Folder of the built book."""
-    if "BOOK_HTML" in os.environ:
-        return Path(os.environ["BOOK_HTML"]).resolve()
-    return request.config.stash[BUILD].html()
+def book():
+    """Folder of the built book: that of ``make book``, or the one that BOOK_HTML names."""
+    folder = Path(os.environ.get("BOOK_HTML", ROOT / "_build" / "html")).resolve()
+    if not (folder / "index.html").is_file():
+        pytest.fail(f"no book in {folder}: 'make test' builds it first, 'make book' only builds")
+    return folder
 
 
 class QuietHandler(SimpleHTTPRequestHandler):
