@@ -135,7 +135,8 @@ def _book(book):
     if not book:
         return "Not measured here."
     seconds = [["building the book, from nothing", book["cold"]],
-               ["building it again", book["warm"]], ["`make test`", book["tests"]]]  # fmt: skip
+               ["building it again", book["warm"]],
+               ["`make test`, which builds it too", book["tests"]]]  # fmt: skip
     table = _table(["what is waited for", "time"], [[x, _time(s)] for x, s in seconds], "lr")
     return "\n".join([table, "", "The explorer in headless Chromium:", "", "```text",
                       *book["explorer"], "```"])  # fmt: skip

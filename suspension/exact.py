@@ -5,6 +5,8 @@ A mode of the robot answers a Gaussian bump with an error function of complex ar
 ``exp(-u^2)`` and a mode goes like ``exp(kappa u)``, where ``kappa = sqrt(2) sigma lam / v``.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.special import wofz
 
@@ -197,6 +199,7 @@ def E(u, kappa):
     return memory
 
 
+@lru_cache(maxsize=32)
 def _modes(robot):
     """A as modes: ``f(A) b = Re sum_m right[:, m] f(lam[m]) (left[m] @ b)`` for f entire and real.
 

@@ -44,11 +44,10 @@ class Recurrence:
             response = (C @ entered.reshape(*cases, n, block * p)).reshape(*cases, o, block, p)
         causal = np.zeros((*cases, o, block - 1, p))
         response = np.concatenate([causal, D[..., None, :], response[..., :-1, :]], axis=-2)
-        # Rows act on the inputs, one after the other, then on the first state; columns are steps.
-        self.kernel = np.empty((*cases, o, p * block + n, block))
-        toeplitz = sliding_window_view(response, block, axis=-2)[..., ::-1, :, :].swapaxes(-2, -3)
-        self.kernel[..., :-n, :].reshape(toeplitz.shape)[...] = toeplitz  # a view
-        self.kernel[..., -n:, :] = free.swapaxes(-1, -2)
+        # Rows are a block's inputs, one after the other; columns are its steps.
+        kernel = sliding_window_view(response, block, axis=-2)[..., ::-1, :, :].swapaxes(-2, -3)
+        self.kernel = kernel.reshape(*cases, o, p * block, block)
+        self.free = free.swapaxes(-1, -2)
         self.last = entered[..., ::-1, :].swapaxes(-1, -3).reshape(*cases, p * block, n)
         self.power = power
 
@@ -66,7 +65,7 @@ class Recurrence:
         x : ndarray, shape (..., n)
             First state.
         u : ndarray, shape (..., p, m)
-            Inputs.
+            Inputs; without the leading axes, all cases have the same.
 
         Returns
         -------
@@ -81,14 +80,13 @@ class Recurrence:
 
     def _run(self, x, u):
         *cases, p, m = u.shape
-        blocks, n = -(-m // self.block), x.shape[-1]
+        blocks = -(-m // self.block)
         if m % self.block:
             u = np.concatenate([u, np.zeros((*cases, p, -m % self.block))], axis=-1)
-        rows = np.empty((*cases, blocks, p * self.block + n))
-        inputs, starts = rows[..., :-n], rows[..., -n:]
         u = u.reshape(*cases, p, blocks, self.block).swapaxes(-2, -3)
-        inputs.reshape(u.shape)[...] = u  # a view
-        ends = inputs @ self.last
+        u = u.reshape(*cases, blocks, p * self.block)
+        ends = u @ self.last
+        starts = np.empty_like(ends)
         if blocks > FEW:
             starts[...] = self.starts._run(x, ends.swapaxes(-1, -2))[0].swapaxes(-1, -2)
         else:
@@ -98,9 +96,9 @@ class Recurrence:
                 starts[..., step:, :] += starts[..., :-step, :] @ power
                 power, step = power @ power, 2 * step
         x = (self.power @ starts[..., -1, :, None])[..., 0] + ends[..., -1, :]
-        y = np.empty((*cases, self.kernel.shape[-3], blocks, self.block))
-        np.matmul(rows[..., None, :, :], self.kernel, out=y)
-        return y.reshape(*cases, -1, blocks * self.block)[..., :m], x
+        y = u[..., None, :, :] @ self.kernel
+        y += starts[..., None, :, :] @ self.free
+        return y.reshape(*y.shape[:-2], blocks * self.block)[..., :m], x
 
 
 class Discrete:

@@ -80,23 +80,20 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
     X = dX * np.minimum(n + abscissae(scheme)[:, None], steps)
     for i in range(len(bases)):
         cases = np.flatnonzero(base.ravel() == i)
-        ground = under_wheels(robots[cases[0]], road, X)
+        ground = np.concatenate(under_wheels(robots[cases[0]], road, X), axis=1)
         for some in np.split(cases, range(size, len(cases), size)):
             N[some] = _smallest(
-                robots[some], v.ravel()[some, None, None], *ground, steps, dX, scheme
+                robots[some], v.ravel()[some, None, None], ground, steps, dX, scheme
             )
     return N.reshape(*v.shape, 2)
 
 
-def _smallest(robots, v, H, dHdx, steps, dX, scheme):
-    A, P, C = (np.array([getattr(robot, name) for robot in robots]) for name in "APC")
-    k = np.array([[[r.k1], [r.k2]] for r in robots])
-    c = np.array([[[r.c1], [r.c2]] for r in robots])
-    run = Discrete(scheme, A / v, P / v, C, np.broadcast_to(np.eye(2), (len(v), 2, 2)), dX)
-    f = k[:, None] * H
-    f += (v * c)[:, None] * dHdx
-    f = f.reshape(len(v), -1, f.shape[-1])
-    y, _ = run(run.start(0.0, f), f)
+def _smallest(robots, v, ground, steps, dX, scheme):
+    A, P, C, D = (np.array([getattr(robot, name) for robot in robots]) for name in "APCD")
+    D[..., 2:] *= v  # acts on slopes
+    run = Discrete(scheme, A / v, P @ D / v, C, D, dX)
+    u = ground.reshape(-1, ground.shape[-1])
+    y, _ = run(run.start(0.0, u), u)
     return y[..., : steps + 1].min(axis=-1) + [robot.C @ robot.equilibrium for robot in robots]
 
 

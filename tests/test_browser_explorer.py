@@ -3,11 +3,7 @@
 import json
 import os
 import re
-import socket
-import subprocess
-import sys
 import threading
-import time
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from importlib.util import module_from_spec, spec_from_file_location
@@ -17,6 +13,7 @@ import nbformat
 import numpy as np
 import pytest
 from ipywidgets.embed import embed_data
+from lab import run_all, serve
 from nbformat.v4 import new_code_cell, new_notebook
 from test_explorer import PARITY, largest_difference
 
@@ -357,7 +354,7 @@ def test_every_explorer_of_the_book(visit, site, book):
 
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
-    """A JupyterLab of its own, with one notebook; its address and its folder."""
+    """A JupyterLab with one notebook; its address and its folder."""
     folder = tmp_path_factory.mktemp("lab")
     notebook = new_notebook(cells=[new_code_cell(source) for source in (
         "import numpy as np\nfrom suspension.explorer import explore\n"
@@ -369,33 +366,8 @@ def lab(tmp_path_factory):
     notebook.metadata.kernelspec = {"name": "python3", "display_name": "Python 3",
                                     "language": "python"}  # fmt: skip
     nbformat.write(notebook, folder / "drive.ipynb")
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    own = {name: str(folder / ".jupyter" / name) for name in (
-        "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTERLAB_SETTINGS_DIR",
-        "JUPYTERLAB_WORKSPACES_DIR", "IPYTHONDIR",
-    )}  # fmt: skip
-    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-    server = subprocess.Popen(
-        [sys.executable, "-m", "jupyterlab", "--no-browser", "--ip=127.0.0.1", f"--port={port}",
-         f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=", "--allow-root",
-         "--LabApp.news_url=None", "--LabApp.check_for_updates_class="
-         "jupyterlab.NeverCheckForUpdate"],
-        env=os.environ | own | {"PYTHONPATH": path}, cwd=folder,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    try:
-        for _ in range(240):
-            with socket.socket() as door:
-                if door.connect_ex(("127.0.0.1", port)) == 0:
-                    break
-            assert server.poll() is None, "JupyterLab did not start"
-            time.sleep(0.25)
-        yield f"http://127.0.0.1:{port}/lab/tree/drive.ipynb", folder
-    finally:
-        server.terminate()
-        server.wait(30)
+    with serve(folder) as address:
+        yield address, folder
 
 
 def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
@@ -403,17 +375,7 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     tab = browser.new_page(viewport={"width": 1300, "height": 1200})
     errors = []
     tab.on("pageerror", lambda error: errors.append(str(error)))
-    tab.goto(address)
-    # Asked to run before the kernel is there, JupyterLab asks back which one.
-    kernels = address.replace("lab/tree/drive.ipynb", "api/kernels")
-    for _ in range(180):
-        if "idle" in [kernel["execution_state"] for kernel in tab.request.get(kernels).json()]:
-            break
-        tab.wait_for_timeout(500)
-    tab.wait_for_timeout(1000)
-    tab.get_by_role("menuitem", name="Run", exact=True).click()
-    tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    tab.wait_for_selector(f"{BOX} canvas[aria-label]", timeout=90_000)
+    run_all(tab, address, "drive.ipynb")
     tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
     assert tab.locator(".suspension-explorer-still").count() == 0
     for control in [*SLIDERS, "Crank-Nicolson"]:

@@ -56,6 +56,14 @@ def test_every_case_runs_as_if_alone():
         np.testing.assert_allclose(end[case], last, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
+def test_cases_may_share_their_inputs():
+    *matrices, x, inputs = system((3,), 4, 2, 2)
+    recurrence, u = Recurrence(*matrices), inputs(1500)[0]
+    shared = recurrence(x, u)
+    for one, copied in zip(shared, recurrence(x, np.stack([u] * 3))):
+        np.testing.assert_allclose(one, copied, rtol=0, atol=1e-12 * np.abs(copied).max())
+
+
 def test_a_run_can_be_interrupted_after_a_block():
     *matrices, x, inputs = system((), 4, 2, 3)
     recurrence, u = Recurrence(*matrices), inputs(1000)

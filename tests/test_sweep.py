@@ -37,7 +37,9 @@ def test_every_case_is_a_run_of_simulate(scheme, steps):
     assert N.shape == (3, 3, 2)
     for i, j in np.ndindex(3, 3):
         expected, scale = alone(ROBOTS[i], BUMP, v[j], steps, scheme=scheme)
-        np.testing.assert_allclose(N[i, j], expected, rtol=0, atol=1e-12 * scale)
+        stable = scheme.is_stable(ROBOTS[i].eigenvalues, 1.25 / (v[j] * steps))
+        atol = (1e-12 if stable else 1e-10) * scale  # what grows takes the roundoff along
+        np.testing.assert_allclose(N[i, j], expected, rtol=0, atol=atol)
 
 
 def test_the_batches_do_not_matter(monkeypatch):

@@ -1,0 +1,57 @@
+"""A JupyterLab of its own, for the tests and the benchmark of the explorer."""
+
+import os
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PRIVATE = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR",
+           "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR", "IPYTHONDIR")  # fmt: skip
+
+
+@contextmanager
+def serve(folder):
+    """Start JupyterLab in a folder, without the user's settings; its address, ending in a slash."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    own = {name: str(folder / ".jupyter" / name) for name in PRIVATE}
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    server = subprocess.Popen(
+        [sys.executable, "-m", "jupyterlab", "--no-browser", "--ip=127.0.0.1", f"--port={port}",
+         f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=", "--allow-root",
+         "--LabApp.news_url=None", "--LabApp.check_for_updates_class="
+         "jupyterlab.NeverCheckForUpdate"],
+        env=os.environ | own | {"PYTHONPATH": path}, cwd=folder,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    try:
+        for _ in range(240):
+            with socket.socket() as door:
+                if door.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            assert server.poll() is None, "JupyterLab did not start"
+            time.sleep(0.25)
+        yield f"http://127.0.0.1:{port}/"
+    finally:
+        server.terminate()
+        server.wait(30)
+
+
+def run_all(tab, address, notebook):
+    """Open a notebook, run all its cells, and wait for the explorer."""
+    tab.goto(f"{address}lab/tree/{notebook}")
+    # Asked to run before the kernel is there, JupyterLab asks back which one.
+    for _ in range(180):
+        kernels = tab.request.get(f"{address}api/kernels").json()
+        if "idle" in [kernel["execution_state"] for kernel in kernels]:
+            break
+        tab.wait_for_timeout(500)
+    tab.wait_for_timeout(1000)
+    tab.get_by_role("menuitem", name="Run", exact=True).click()
+    tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    tab.wait_for_selector(".suspension-explorer-box canvas[aria-label]", timeout=90_000)
