@@ -2,7 +2,7 @@
 
 import numpy as np
 
-__all__ = ["array", "interval", "nonnegative", "number", "one_of", "positive", "whole"]
+__all__ = ["array", "instance", "interval", "nonnegative", "number", "one_of", "positive", "whole"]
 
 
 def number(name, value, allowed="a finite number", test=lambda x: True):
@@ -41,6 +41,13 @@ def one_of(name, value, choices):
     """Return `value` if it is among `choices`."""
     if value not in choices:
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
+    return value
+
+
+def instance(name, value, kind):
+    """Return `value` if it is a `kind`."""
+    if not isinstance(value, kind):
+        raise ValueError(f"{name} must be a {kind.__name__}, got {value!r}")
     return value
 
 

@@ -129,8 +129,7 @@ class Crossing:
     """
 
     def __init__(self, robot, bump, v, w0=None):
-        if not isinstance(bump, GaussianBump):
-            raise ValueError(f"bump must be a GaussianBump, got {bump!r}")
+        _checks.instance("bump", bump, GaussianBump)
         v = _checks.number("v", v)
         self.v, self.bump, self.rest = v, bump, robot.equilibrium
         self.matrices = robot.A, robot.B, robot.C, robot.D, robot.e

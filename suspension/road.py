@@ -92,7 +92,11 @@ def road_input(robot, road, v, t):
 
 def profile(road, x):
     """Height and slope of a road at `x`, checked: finite, and of the shape of `x`."""
-    H, dHdx = road(x)
+    value = road(x)
+    try:
+        H, dHdx = value
+    except (TypeError, ValueError):
+        raise ValueError(f"road must return two arrays, H and dHdx, got {value!r}") from None
     return _on_grid("H", H, x), _on_grid("dHdx", dHdx, x)
 
 

@@ -96,6 +96,7 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     array([7.1417, 7.1417])
     """
     v, dt = _checks.number("v", v), _checks.positive("dt", dt)
+    _checks.instance("scheme", scheme, Scheme)
     T = dt * np.arange(steps(tfinal, dt) + 1)
     rest = robot.equilibrium
     w0 = rest if w0 is None else _checks.array("w0", w0, (4,))

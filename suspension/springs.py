@@ -42,8 +42,8 @@ def load_spring_data(path=None):
     if path is None:
         path = DATA / "spring_data.mat"
         path = path if path.exists() else path.with_suffix(".csv")
-    path = Path(path)
     try:
+        path = Path(path)
         if path.suffix == ".mat":
             table = {k: np.ravel(x) for k, x in io.loadmat(path).items() if k[:2] != "__"}
         else:

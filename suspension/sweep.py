@@ -5,7 +5,7 @@ import numpy as np
 from suspension import _checks
 from suspension.recurrence import BLOCK, Discrete, abscissae
 from suspension.robot import Robot
-from suspension.schemes import RK4
+from suspension.schemes import RK4, Scheme
 from suspension.simulation import MAX_STEPS, under_wheels
 
 __all__ = ["sweep"]
@@ -60,6 +60,7 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
            [  5.6 , -25.23,   1.67]])
     """
     robots, v = _robots(robots), _checks.array("v", v)
+    _checks.instance("scheme", scheme, Scheme)
     if not (v > 0).all():
         raise ValueError(f"v must be > 0 everywhere, got {v[~(v > 0)].flat[0]}")
     steps, distance = _checks.whole("steps", steps, 1), _checks.positive("distance", distance)

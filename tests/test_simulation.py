@@ -246,6 +246,7 @@ def test_a_run_starts_where_it_is_told():
     ("w0", [0, 0, 0]), ("w0", np.zeros((4, 1))), ("w0", [0, 0, np.nan, 0]), ("w0", "wxyz"),
     ("w0", np.array([1j, 0, 0, 0])),
     ("road", lambda x: (x, np.full_like(x, np.nan))), ("road", lambda x: (0.0, 0.0)),
+    ("scheme", "RK4"), ("scheme", None),
 ])  # fmt: skip
 def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"road": BUMP, "v": 1, "dt": 0.01, "tfinal": 0.1} | {name: value}

@@ -71,6 +71,12 @@ def test_a_file_that_cannot_be_used_is_refused(tmp_path, name, content, why):
         load_spring_data(tmp_path / name)
 
 
+@pytest.mark.parametrize("path", [3, ["spring_data.csv"]])
+def test_a_path_that_is_none_is_refused(path):
+    with pytest.raises(ValueError, match="^path must be a readable .csv or .mat file, got "):
+        load_spring_data(path)
+
+
 def test_columns_of_different_lengths_are_refused(tmp_path):
     io.savemat(tmp_path / "own.mat", {"delta_over_delta_max": X, "force": X[:-1]})
     with pytest.raises(ValueError, match="one length"):

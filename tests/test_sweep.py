@@ -101,6 +101,7 @@ def test_one_unstable_case_does_not_spoil_the_others():
     *[("distance", value) for value in (0, -1, np.nan, np.inf, None)],
     *[("robots", value) for value in (None, 800, [ROBOTS[0], None], ROBOTS * 5)],
     ("road", lambda x: (x, np.full_like(x, np.nan))), ("road", lambda x: (0.0, 0.0)),
+    ("scheme", "RK4"), ("scheme", None),
 ])  # fmt: skip
 def test_a_bad_argument_is_refused_by_name(name, value):
     good = {"robots": ROBOTS[0], "road": BUMP, "v": [1, 2, 3, 4], "steps": 10, "distance": 1}
