@@ -69,16 +69,19 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now 
   }
 }
 
-/** A curve through samples, by the least and greatest of each few where they are dense. */
+/** A curve through samples; where they are dense, the first of each few and those that stand out. */
 function trace(values, x, y, width) {
   const path = new Path2D(), every = Math.max(1, Math.floor((2 * values.length) / width));
   for (let n = 0; n < values.length; n += every) {
+    const end = Math.min(n + every, values.length) - 1, points = [n];
     let low = n, high = n;
-    for (let m = n + 1; m < Math.min(n + every, values.length); m++) {
+    for (let m = n + 1; m <= end; m++) {
       if (values[m] < values[low]) low = m;
       if (values[m] > values[high]) high = m;
     }
-    for (const m of low < high ? [low, high] : high < low ? [high, low] : [n]) {
+    for (const m of low < high ? [low, high] : [high, low]) if (n < m && m < end) points.push(m);
+    if (end === values.length - 1 && end > n) points.push(end);
+    for (const m of points) {
       const height = clamp(y(values[m]), -FAR, FAR);
       if (!Number.isNaN(height)) path.lineTo(x(m), height);
       if (!(Math.abs(height) < FAR)) return path; // an unstable run has left for good
