@@ -197,9 +197,12 @@ function drawStability({ w, h, stroke, fill, line, dot, text, inside }, scene) {
     line(px(0), top, px(0), bottom);
     stroke("region", 1.6, [], region);
     text("stable", px(-1.15 * half / 3.4), py(0) - 6, { align: "center", colour: "region" });
-    for (const [re, im] of z) {
-      for (const other of data.dts) dot(px(re * other), py(im * other), 1.5, "soft");
+    const others = new Path2D();
+    for (const [x, y] of z.flatMap(([re, im]) => data.dts.map((t) => [px(re * t), py(im * t)]))) {
+      others.moveTo(x, y);
+      others.arc(x, y, 1.5, 0, 2 * Math.PI);
     }
+    fill("soft", 1, others);
     z.forEach(([re, im], i) => {
       const grows = !step.stable && step.growth[i] > 1;
       dot(px(re * dt), py(im * dt), 5.5, grows ? "alarm" : "ink", "paper");
