@@ -169,6 +169,16 @@ def _rate(A, B, w, u, out):
 
 
 @njit
+def _record(C, D, rest, w, u, n, W, N):
+    for i in range(4):
+        W[i, n] = w[i] + rest[i]
+    for i in range(2):
+        N[i, n] = 0.0
+        for j in range(4):
+            N[i, n] += C[i, j] * W[j, n] + D[i, j] * u[j]
+
+
+@njit
 def _stages(A, B, C, D, rest, v, dt, J, *bump):
     """RK4 as the textbook has it, about the equilibrium."""
     T, W, N = np.empty(J + 1), np.empty((4, J + 1)), np.empty((2, J + 1))
@@ -178,12 +188,7 @@ def _stages(A, B, C, D, rest, v, dt, J, *bump):
     _road(v, 0.0, *bump, u0)
     for n in range(J + 1):
         T[n] = n * dt
-        for i in range(4):
-            W[i, n] = w[i] + rest[i]
-        for i in range(2):
-            N[i, n] = 0.0
-            for j in range(4):
-                N[i, n] += C[i, j] * W[j, n] + D[i, j] * u0[j]
+        _record(C, D, rest, w, u0, n, W, N)
         _road(v, T[n] + dt / 2, *bump, u1)
         _road(v, T[n] + dt, *bump, u2)
         _rate(A, B, w, u0, g1)
@@ -211,12 +216,7 @@ def _recurrence(R, H0, H1, H2, C, D, rest, v, dt, J, *bump):
     _road(v, 0.0, *bump, u0)
     for n in range(J + 1):
         T[n] = n * dt
-        for i in range(4):
-            W[i, n] = w[i] + rest[i]
-        for i in range(2):
-            N[i, n] = 0.0
-            for j in range(4):
-                N[i, n] += C[i, j] * W[j, n] + D[i, j] * u0[j]
+        _record(C, D, rest, w, u0, n, W, N)
         _road(v, T[n] + dt / 2, *bump, u1)
         _road(v, T[n] + dt, *bump, u2)
         for i in range(4):

@@ -1,4 +1,4 @@
-"""Figures of Parts IV to VI: each function draws what it is given and returns its axes."""
+"""Figures of Parts V and VI: each function draws what it is given and returns its axes."""
 
 from itertools import pairwise
 
@@ -7,22 +7,13 @@ import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.ticker import NullLocator
 
-from suspension.plots import MARKERS
-
 __all__ = [
-    "plot_errors",
     "plot_flight",
-    "plot_heave",
     "plot_margin",
     "plot_margin_map",
-    "plot_missed_dip",
-    "plot_seen_mode",
     "plot_sensitivities",
     "plot_travel",
 ]
-
-LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))
-
 
 def _axes(ax):
     return plt.subplots()[1] if ax is None else ax
@@ -34,87 +25,6 @@ def _speed_axis(ax, v):
     ax.set_xticks(ticks, [f"{x:g}" for x in ticks])
     ax.xaxis.set_minor_locator(NullLocator())
     ax.set(xlim=(v[0], v[-1]), xlabel="speed $v$ (m/s)")
-
-
-def plot_errors(x, errors, ax=None, floor=None):
-    """Errors against step size or cost, on logarithmic axes.
-
-    Parameters
-    ----------
-    x : array_like, shape (n,), or dict of them
-        Step sizes or costs, for all curves or for each.
-    errors : dict of str to array_like, shape (n,)
-        A curve for each name.
-    floor : float, optional
-        Where roundoff is expected, drawn as a line.
-    """
-    ax = _axes(ax)
-    for k, (name, error) in enumerate(errors.items()):
-        at = x[name] if isinstance(x, dict) else x
-        style = LINES[k % len(LINES)]
-        ax.loglog(at, error, ls=style, marker=MARKERS[k % len(MARKERS)], mfc="none", label=name)
-    if floor:
-        ax.axhline(floor, color="0.5", lw=0.8)
-    ax.legend()
-    return ax
-
-
-def plot_heave(X, heave, ax=None):
-    """Heave against position for several speeds; `heave` is a dict of speed, m/s, to m."""
-    ax = _axes(ax)
-    for (v, y), style in zip(heave.items(), LINES):
-        ax.plot(X, 1000 * y, ls=style, label=f"v = {v:g} m/s")
-    ax.set(xlabel="position $X$ (m)", ylabel=r"$Y - Y_\mathrm{eq}$ (mm)")
-    ax.legend()
-    return ax
-
-
-def plot_seen_mode(dts, seen, true, figure):
-    """Frequency and damping that methods give a mode, against the step; two panels.
-
-    Parameters
-    ----------
-    dts : array_like, shape (n,)
-        Time steps, s.
-    seen : dict of str to array_like of complex, shape (n,)
-        Eigenvalue that each method's runs show, 1/s.
-    true : complex
-        Eigenvalue of the mode, 1/s.
-    """
-    left, right = figure.subplots(1, 2)
-    for (name, value), style in zip(seen.items(), LINES):
-        left.semilogx(dts, value.imag / true.imag, ls=style, label=name)
-        right.semilogx(dts, -value.real / np.abs(value), ls=style)
-    right.axhline(-true.real / abs(true), color="k", lw=0.6)
-    left.set(xlabel=r"$\Delta t$ (s)", ylabel="frequency, computed / true")
-    right.set(xlabel=r"$\Delta t$ (s)", ylabel="damping ratio", ylim=(-0.3, 0.6))
-    figure.legend(loc="outside upper center", ncols=3)
-    return left, right
-
-
-def plot_missed_dip(T, N, steps, forces, axes):
-    """A dip below zero between two steps of an adaptive integrator: overview and close-up.
-
-    Parameters
-    ----------
-    T, N : array_like, shape (n,)
-        Exact force of one wheel.
-    steps, forces : array_like, shape (m,)
-        Where the integrator stopped, and the force there.
-    axes : two Axes
-    """
-    dip = np.argmin(N)
-    after = min(np.searchsorted(steps, T[dip]), len(steps) - 1)
-    for ax in axes:
-        ax.axhline(0, color="0.3", lw=0.8)
-        ax.plot(T, N, label="exact force")
-        ax.plot(steps, forces, "o", color="C1", label="steps of the integrator")
-        ax.set(xlabel="time $t$ (s)", ylabel="normal force (N)")
-    axes[1].set(xlim=(steps[after - 1] - 0.002, steps[after] + 0.002))
-    near = np.abs(T - T[dip]) < steps[after] - steps[after - 1]
-    axes[1].set(ylim=(1.5 * N[dip] - 0.02, N[near].max()))
-    axes[0].legend()
-    return axes
 
 
 def plot_margin(v, N, critical, asked=(), ax=None):
@@ -246,8 +156,9 @@ def plot_flight(flight, linear, axes):
     axes[0].axhline(0, color="0.3", lw=0.8)
     for i, name in enumerate(("rear", "front")):
         axes[0].plot(linear.T, linear.N[i], color=f"C{i}", ls=":", lw=1, alpha=0.8)
-        axes[0].plot(flight.T, flight.N[i], color=f"C{i}", ls=LINES[i], label=f"{name} wheel")
-        axes[1].plot(flight.T, 1000 * flight.gaps[i], color=f"C{i}", ls=LINES[i])
+        style = {"color": f"C{i}", "ls": ("-", "--")[i]}
+        axes[0].plot(flight.T, flight.N[i], **style, label=f"{name} wheel")
+        axes[1].plot(flight.T, 1000 * flight.gaps[i], **style)
     axes[0].set(ylabel="normal force (N)", title=f"$v$ = {flight.v:g} m/s")
     axes[1].set(ylabel="wheel above\nground (mm)", xlabel="time $t$ (s)")
     axes[0].legend(loc="upper right", ncols=2)

@@ -6,7 +6,7 @@ import numpy as np
 
 from suspension import _checks
 
-__all__ = ["FlatRoad", "GaussianBump", "profile", "road_input"]
+__all__ = ["FlatRoad", "GaussianBump", "profile", "road_input", "under_wheels"]
 
 
 @dataclass(frozen=True)
@@ -83,11 +83,29 @@ def road_input(robot, road, v, t):
         If the road returns another shape than it was given, or a value that is not finite.
     """
     X = v * np.asarray(t, dtype=float)
-    u = np.empty((4, *X.shape))
-    for i, offset in enumerate((-robot.L1, robot.L2)):
-        H, dHdx = profile(road, X + offset)
-        u[i], u[i + 2] = H, v * dHdx
-    return u
+    H, dHdx = under_wheels(robot, road, X.reshape(1, -1))
+    return np.concatenate([H[0], v * dHdx[0]]).reshape(4, *X.shape)
+
+
+def under_wheels(robot, road, X):
+    """The road under both wheels for the centre of mass at `X`, m.
+
+    Parameters
+    ----------
+    robot : Robot
+        Gives L1 and L2.
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    X : ndarray, shape (s, n)
+
+    Returns
+    -------
+    H, dHdx : ndarray, shape (s, 2, n)
+        Height in m and slope, rear wheel before front.
+    """
+    x = X[:, None, :] + np.array([[-robot.L1], [robot.L2]])
+    H, dHdx = profile(road, x.ravel())
+    return H.reshape(x.shape), dHdx.reshape(x.shape)
 
 
 def profile(road, x):

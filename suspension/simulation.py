@@ -12,7 +12,7 @@ import numpy as np
 from suspension import _checks
 from suspension.contact import first_loss
 from suspension.recurrence import Discrete
-from suspension.road import profile
+from suspension.road import under_wheels
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["Trajectory", "simulate", "steps"]
@@ -123,27 +123,6 @@ def _discrete(robot, scheme, dt):
     # The road acts by f = D u alone: w' = A w + P f + e, and N = C w + f.
     C, D = np.vstack([np.eye(4), robot.C]), np.vstack([np.zeros((4, 2)), np.eye(2)])
     return Discrete(scheme, robot.A, robot.P, C, D, dt)
-
-
-def under_wheels(robot, road, X):
-    """The road under both wheels for the centre of mass at `X`, m.
-
-    Parameters
-    ----------
-    robot : Robot
-        Gives L1 and L2.
-    road : callable
-        ``road(x) -> (H, dHdx)``.
-    X : ndarray, shape (s, n)
-
-    Returns
-    -------
-    H, dHdx : ndarray, shape (s, 2, n)
-        Height in m and slope, rear wheel before front.
-    """
-    x = X[:, None, :] + np.array([[-robot.L1], [robot.L2]])
-    H, dHdx = profile(road, x.ravel())
-    return H.reshape(x.shape), dHdx.reshape(x.shape)
 
 
 def steps(tfinal, dt):

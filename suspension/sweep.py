@@ -4,9 +4,10 @@ import numpy as np
 
 from suspension import _checks
 from suspension.recurrence import BLOCK, Discrete, abscissae
+from suspension.road import under_wheels
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
-from suspension.simulation import MAX_STEPS, under_wheels
+from suspension.simulation import MAX_STEPS
 
 __all__ = ["sweep"]
 

@@ -12,7 +12,7 @@ ORDER = (
     "_checks springs robot road schemes exact contact simulation flight course "
     "plots animation explorer"
 ).split()
-DRAWING = {"plots", "figures", "animation", "explorer"}
+DRAWING = {"plots", "error_figures", "figures", "animation", "explorer"}
 ONLY_IN = {
     "matplotlib": DRAWING,
     "ipywidgets": DRAWING,

@@ -71,8 +71,8 @@ def test_input_at_one_time_has_shape_four():
     (lambda x: (np.where(x > 0.5, np.nan, 0), x), r"H not finite at x = 0\.59 m"),
     (lambda x: (x, np.where(x > 0.5, np.inf, 0)), r"dHdx not finite at x = 0\.59 m"),
     (lambda x: None, "two arrays, H and dHdx, got None"), (lambda x: (x,), "two arrays"),
-    (lambda x: (0.0, 0.0), r"H of the shape of x, \(3,\), got \(\)"),
-    (lambda x: (x, x[:-1]), r"dHdx of the shape of x, \(3,\), got \(2,\)"),
+    (lambda x: (0.0, 0.0), r"H of the shape of x, \(6,\), got \(\)"),
+    (lambda x: (x, x[:-1]), r"dHdx of the shape of x, \(6,\), got \(5,\)"),
 ])  # fmt: skip
 def test_road_that_returns_nonsense_is_refused_with_the_place(road, why):
     with pytest.raises(ValueError, match=f"^road must return .*{why}"):
