@@ -1,1 +1,53 @@
-"""A half-robot on springs and dampers that drives over a bump (MIT 2.086, Problem Set 4)."""
+"""A half-robot on springs and dampers that drives over a bump (MIT 2.086, Problem Set 4).
+
+The model and its time loop, which the ten questions ask for:
+
+- `robot`, `road`, `schemes`: the matrices, the ground, one-step methods as Butcher tableaux
+- `forces`, `simulation`: what the wheels press with, and the motion step by step
+- `springs`, `course`: the regression, and the problem set's own functions by its names
+
+What goes beyond:
+
+- `exact`: the crossing of a bump in closed form
+- `least_force`, `critical`: its least forces, and the speeds at which they vanish
+- `contact`: all that answers "does a wheel leave the ground?", in one place
+- `flight`: what happens after it has
+- `sweep`: very many runs at once
+- `travel`, `accuracy`, `uncertainty`: how far the answers can be trusted
+
+And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
+and nothing above imports them.
+
+>>> import suspension
+>>> robot = suspension.Robot(k1=800, k2=800)
+>>> suspension.simulate(robot, suspension.GaussianBump(), v=1.2, dt=0.001, tfinal=1).loss
+Loss(wheel=2, t=0.177)
+"""
+
+from suspension.critical import critical_speeds
+from suspension.exact import over_bump
+from suspension.flight import fly
+from suspension.least_force import margin
+from suspension.road import FlatRoad, GaussianBump
+from suspension.robot import Robot
+from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
+from suspension.simulation import simulate
+
+
+__version__ = "2.0.0"
+
+__all__ = [
+    "BACKWARD_EULER",
+    "CRANK_NICOLSON",
+    "EULER",
+    "RK4",
+    "FlatRoad",
+    "GaussianBump",
+    "Robot",
+    "Scheme",
+    "critical_speeds",
+    "fly",
+    "margin",
+    "over_bump",
+    "simulate",
+]

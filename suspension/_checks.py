@@ -1,5 +1,7 @@
 """Arguments that cannot mean anything are refused, by name, before any computing starts."""
 
+from reprlib import repr as short
+
 import numpy as np
 
 __all__ = ["array", "instance", "interval", "nonnegative", "number", "one_of", "positive", "whole"]
@@ -8,7 +10,8 @@ __all__ = ["array", "instance", "interval", "nonnegative", "number", "one_of", "
 def number(name, value, allowed="a finite number", test=lambda x: True):
     """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
     try:
-        x = np.nan if isinstance(value, str) or np.iscomplexobj(value) else float(value)
+        unfit = isinstance(value, str | bytes) or np.iscomplexobj(value) or np.ma.is_masked(value)
+        x = np.nan if unfit else float(value)
     except (TypeError, ValueError, OverflowError):
         x = np.nan
     if not (np.isfinite(x) and test(x)):
@@ -33,33 +36,38 @@ def interval(name, value, low, high):
 
 def whole(name, value, low):
     """Return `value` as an int >= low."""
-    test = lambda x: x >= low and x == int(x)  # noqa: E731
+
+    def test(x):
+        return x >= low and x == int(x)
+
     return int(number(name, value, f"a whole number >= {low}", test))
 
 
 def one_of(name, value, choices):
     """Return `value` if it is among `choices`."""
-    if value not in choices:
+    if not any(value is choice or (np.isscalar(value) and value == choice) for choice in choices):
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
     return value
 
 
 def instance(name, value, kind):
-    """Return `value` if it is a `kind`."""
+    """Return `value` if it is a `kind`, else raise TypeError naming it."""
     if not isinstance(value, kind):
-        raise ValueError(f"{name} must be a {kind.__name__}, got {value!r}")
+        raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}")
     return value
 
 
 def array(name, value, shape=None, dtype=float, finite=True):
     """Return `value` as an array of the given shape; None in `shape` stands for any length."""
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} must have no masked elements, got {short(value)}")
     try:
         x = np.asarray(value)
         if x.dtype.kind not in ("biufc" if dtype is complex else "biuf"):  # text, objects
             raise TypeError
         x = x.astype(dtype, copy=False)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} must be an array of numbers, got {value!r}") from None
+        raise ValueError(f"{name} must be an array of numbers, got {short(value)}") from None
     if shape is not None and (
         x.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, x.shape))
     ):

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from suspension import _checks
-from suspension.margin import margin
+from suspension.least_force import margin
 
 __all__ = ["critical_speeds", "critical_stiffness", "sensitivity", "zeros"]
 

@@ -1,8 +1,8 @@
 """Exact solutions to hold the integrators against: flat ground, and one Gaussian bump.
 
 A mode of the robot answers a Gaussian bump with an error function of complex argument. With
-``u`` the distance of a wheel from the top of the bump in units of ``sqrt(2) sigma``, the bump is
-``exp(-u^2)`` and a mode goes like ``exp(kappa u)``, where ``kappa = sqrt(2) sigma lam / v``.
+``xi`` the distance of a wheel from the top of the bump in units of ``sqrt(2) sigma``, the bump is
+``exp(-xi^2)`` and a mode goes like ``exp(kappa xi)``, where ``kappa = sqrt(2) sigma lam / v``.
 """
 
 from functools import lru_cache
@@ -12,11 +12,12 @@ from scipy.special import wofz
 
 from suspension import _checks
 from suspension.road import GaussianBump
+from suspension.robot import Robot
 
-__all__ = ["Crossing", "E", "flat_ground", "over_bump"]
+__all__ = ["Crossing", "bump_memory", "flat_ground", "over_bump"]
 
 ILL_CONDITIONED = 30.0  # eigenvectors lose digits as the square of this
-CIRCLE = 8  # points in a mean over a circle, whose error is about (1/80)^CIRCLE
+CIRCLE = 8  # points in a mean over a circle, whose error is about (1/40)^CIRCLE
 FAR = 40.0  # exp(-FAR) is below roundoff beside 1
 
 
@@ -33,7 +34,7 @@ def flat_ground(robot, w0, t):
     w0 : array_like, shape (4,)
         State at t = 0, ``[Y, Y', theta, theta']`` in m, m/s, rad, rad/s.
     t : array_like, shape (n,) or ()
-        Times, s.
+        Times, s, >= 0.
 
     Returns
     -------
@@ -42,15 +43,16 @@ def flat_ground(robot, w0, t):
     Raises
     ------
     ValueError
-        If the robot is not symmetric, or `w0` is not four finite numbers.
+        If the robot is not symmetric, or `w0` or `t` is not finite or out of its range.
     """
+    _checks.instance("robot", robot, Robot)
     if (robot.k1, robot.c1, robot.L1) != (robot.k2, robot.c2, robot.L2):
         raise ValueError(
             "robot must be symmetric (k1 = k2, c1 = c2, L1 = L2), got "
             f"k1={robot.k1}, k2={robot.k2}, c1={robot.c1}, c2={robot.c2}, "
             f"L1={robot.L1}, L2={robot.L2}"
         )
-    w0, t = _checks.array("w0", w0, (4,)), _checks.array("t", t)
+    w0, t = _checks.array("w0", w0, (4,)), _times(t)
     Y_eq = robot.equilibrium[0]
     inertia = {0: robot.m, 2: robot.Izz / robot.L1**2}  # heave; pitch, as a mass at the wheels
     W = np.empty((4, *t.shape))
@@ -111,90 +113,102 @@ class Crossing:
 
     What the dampers pass on at once is split off: ``y = w - w_eq - sum_i c_i P_i h_i`` obeys
     ``y' = A y + sum_i b_i h_i`` with ``b_i = k_i P_i + c_i A P_i``. There a mode with eigenvalue
-    lam, driven by ``g h``, is ``exp(lam t) (q(0) - g M(0)) + g M(t)``, where
-    ``M = height sqrt(pi) sigma / (sqrt(2) v) E(u)`` remembers the road from infinitely far.
+    lam, driven by ``gain h``, is ``q(t) = exp(lam t) (q(0) - gain memory(0)) + gain memory(t)``,
+    where ``memory = height sqrt(pi) sigma / (sqrt(2) v) bump_memory(xi)`` is what the mode
+    remembers of the bump, from infinitely far.
 
     Parameters are those of `over_bump`.
 
     Attributes
     ----------
-    matrices : tuple of ndarray
-        A, B, C, D and e of the robot.
+    robot : Robot
+    bump : GaussianBump
+    v : float
+        Speed, m/s.
     lam : ndarray of complex, shape (modes,)
         Eigenvalues, 1/s, one of each conjugate pair (or those on the circle of `_modes`).
     start : ndarray, shape (2,)
-        ``u`` at t = 0, rear and front wheel.
+        ``xi`` at t = 0, rear and front wheel.
     rate : float
-        ``du/dt = |v| / (sqrt(2) sigma)``, 1/s.
+        ``dxi/dt = |v| / (sqrt(2) sigma)``, 1/s.
     """
 
     def __init__(self, robot, bump, v, w0=None):
+        _checks.instance("robot", robot, Robot)
         _checks.instance("bump", bump, GaussianBump)
-        v = _checks.number("v", v)
-        self.v, self.bump, self.rest = v, bump, robot.equilibrium
-        self.matrices = robot.A, robot.B, robot.C, robot.D, robot.e
-        w0 = self.rest if w0 is None else _checks.array("w0", w0, (4,))
+        self.robot, self.bump, self.v = robot, bump, _checks.number("v", v)
+        w0 = robot.equilibrium if w0 is None else _checks.array("w0", w0, (4,))
         width = np.sqrt(2) * bump.sigma
-        ahead = np.array([-robot.L1, robot.L2]) - bump.centre
-        self.start, self.rate = np.copysign(1.0, v) * ahead / width, abs(v) / width
+        self.start = np.copysign(1.0, self.v) * (robot.arms - bump.centre) / width
+        self.rate = abs(self.v) / width
         self.lam, self.right, left = _modes(robot)
-        self.direct = robot.P * [robot.c1, robot.c2]
-        self.g = left @ (robot.P * [robot.k1, robot.k2] + robot.A @ self.direct)
-        y0 = w0 - self.rest - self.direct @ self.road(np.zeros(1))[0][:, 0]
-        self.free = left @ y0 - np.sum(self.g * self._memory(np.zeros(1))[:, :, 0], axis=1)
+        self.direct = robot.P * robot.c
+        self.gain = left @ (robot.P * robot.k + robot.A @ self.direct)
+        start = np.zeros(1)
+        y0 = w0 - robot.equilibrium - self.direct @ self.road(start)[0][:, 0]
+        self.free = left @ y0 - np.sum(self.gain * self._memory(start)[:, :, 0], axis=1)
 
     def __call__(self, t):
         """State at times `t` >= 0, s, of shape (n,) or (): ndarray, shape (4, n) or (4,)."""
-        t = _checks.array("t", t)
-        if (t < 0).any():
-            raise ValueError(f"t must be >= 0, got {t.min()}")
+        t = _times(t)
         s = t.ravel()
         q = self.free[:, None] * np.exp(self.lam[:, None] * s)
-        q += np.einsum("mi,min->mn", self.g, self._memory(s))
-        W = self.rest[:, None] + self.direct @ self.road(s)[0] + (self.right @ q).real
-        return W.reshape(4, *t.shape)
+        q += np.einsum("mi,min->mn", self.gain, self._memory(s))
+        W = self.direct @ self.road(s)[0] + (self.right @ q).real
+        return (self.robot.equilibrium[:, None] + W).reshape(4, *t.shape)
 
     def road(self, t, order=0):
         """Height under both wheels and its time derivatives: a list of ndarrays, shape (2, n)."""
-        u, r = self.start[:, None] + self.rate * t, self.rate
-        h = [self.bump.height * np.exp(-u * u)]
-        for n in range(order):  # Hermite's recurrence
-            h.append(-2 * r * (u * h[n] + (n * r * h[n - 1] if n else 0.0)))
+        xi = self.start[:, None] + self.rate * t
+        h = [self.bump.height * np.exp(-xi * xi)]
+        if order > 0:
+            h.append(-2 * self.rate * xi * h[0])
+        for n in range(1, order):  # Hermite's recurrence
+            h.append(-2 * self.rate * (xi * h[n] + n * self.rate * h[n - 1]))
         return h
 
     def _memory(self, t):
-        u, lam = self.start[:, None] + self.rate * t, self.lam[:, None, None]
-        if self.rate < 1e-16 * np.abs(lam).min():  # so slow that the ground is level: M = -h / lam
-            return -self.bump.height * np.exp(-u * u) / lam
-        return self.bump.height * np.sqrt(np.pi) / (2 * self.rate) * E(u, lam / self.rate)
+        xi, lam = self.start[:, None] + self.rate * t, self.lam[:, None, None]
+        if self.rate < 1e-16 * np.abs(lam).min():  # so slow that the ground is level
+            return -self.bump.height * np.exp(-xi * xi) / lam
+        scale = self.bump.height * np.sqrt(np.pi) / (2 * self.rate)
+        return scale * bump_memory(xi, lam / self.rate)
 
 
-def E(u, kappa):
-    """What a mode remembers at u of the bump: ``exp(-u^2) w(-i (u + kappa/2))``, w of Faddeeva.
+def _times(t):
+    t = _checks.array("t", t)
+    if (t < 0).any():
+        raise ValueError(f"t must be >= 0, got {t.min()}")
+    return t
 
-    It is ``2 / sqrt(pi)`` times the integral of ``exp(kappa (u - s) - s^2)`` over s up to u, and
-    at most 2 for a damped mode. Where w is large, ``w(-z) = 2 exp(-z^2) - w(z)`` replaces it.
+
+def bump_memory(xi, kappa):
+    """What a mode remembers of the bump: ``E(xi) = exp(-xi^2) w(-i (xi + kappa/2))``.
+
+    It is ``2 / sqrt(pi)`` times the integral of ``exp(kappa (xi - r) - r^2)`` over r up to xi,
+    and at most 2 for a damped mode; w is the Faddeeva function (`scipy.special.wofz`). Where w is
+    large, ``w(-z) = 2 exp(-z^2) - w(z)`` replaces it.
 
     Parameters
     ----------
-    u : array_like
+    xi : array_like
         Distance from the top of the bump over ``sqrt(2) sigma``.
     kappa : array_like of complex
-        ``sqrt(2) sigma lam / v``, of a shape that broadcasts with `u`.
+        ``sqrt(2) sigma lam / v``, of a shape that broadcasts with `xi`.
 
     Returns
     -------
     E : ndarray of complex
     """
-    u, kappa = np.asarray(u), np.asarray(kappa)
-    z = u + kappa / 2
+    xi, kappa = np.asarray(xi), np.asarray(kappa)
+    z = xi + kappa / 2
     past = z.real > 0
     side = np.where(past, -1.0, 1.0)
-    near = np.broadcast_to(u * u < FAR, z.shape)
+    near = np.broadcast_to(xi * xi < FAR, z.shape)
     memory = np.zeros(z.shape, dtype=complex)
     memory[near] = wofz(-1j * (side * z)[near])
-    memory *= side * np.exp(-u * u)
-    memory[past] += 2 * np.exp((kappa * (u + kappa / 4))[past])
+    memory *= side * np.exp(-xi * xi)
+    memory[past] += 2 * np.exp((kappa * (xi + kappa / 4))[past])
     return memory
 
 
@@ -212,14 +226,20 @@ def _modes(robot):
     if _condition(right) < ILL_CONDITIONED:
         half = lam.imag >= 0
         twice = np.where(lam[half].imag > 0, 2, 1)
-        return lam[half], right[:, half] * twice, np.linalg.inv(right)[half]
+        return _constant(lam[half], right[:, half] * twice, np.linalg.inv(right)[half])
     # Small against the damping, or exp(lam t) would vary too much along the circle.
     radius = max((-lam.real / np.abs(lam)).min() / 40, 1e-5)
     angle = np.pi * (2 * np.arange(CIRCLE // 2) + 1) / CIRCLE  # the lower half mirrors the upper
     springs = robot.P @ (robot.C * [[1, 0, 1, 0], [0.5, 0, 0.5, 0]])  # unequal: no mode is spared
     lam, right = np.linalg.eig(A + radius * np.exp(1j * angle)[:, None, None] * springs)
     left = np.linalg.inv(right)
-    return lam.ravel(), np.hstack(list(right)) * (2 / CIRCLE), left.reshape(-1, 4)
+    return _constant(lam.ravel(), np.hstack(list(right)) * (2 / CIRCLE), left.reshape(-1, 4))
+
+
+def _constant(*arrays):
+    for array in arrays:
+        array.setflags(write=False)  # every crossing of this robot gets the same ones
+    return arrays
 
 
 def _condition(V):

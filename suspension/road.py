@@ -37,15 +37,10 @@ class GaussianBump:
 
     def __call__(self, x):
         """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`."""
-        s = np.asarray(x, dtype=float) - self.centre
-        s *= 1 / self.sigma  # in place: passes over memory cost more than the exponential
-        H = s * s
-        H *= -0.5
-        H = np.exp(H)
-        H *= self.height
-        s *= H
-        s *= -1 / self.sigma
-        return H, s
+        s = (_checks.array("x", x, finite=False) - self.centre) / self.sigma
+        with np.errstate(over="ignore"):  # so far away that the height is zero
+            H = self.height * np.exp(-(s**2) / 2)
+        return H, -s * H / self.sigma
 
 
 @dataclass(frozen=True)
@@ -54,7 +49,7 @@ class FlatRoad:
 
     def __call__(self, x):
         """Return height 0 and slope 0 at positions `x`, each of the shape of `x`."""
-        x = np.asarray(x, dtype=float)
+        x = _checks.array("x", x, finite=False)
         return np.zeros_like(x), np.zeros_like(x)
 
 
@@ -82,9 +77,9 @@ def road_input(robot, road, v, t):
     ValueError
         If the road returns another shape than it was given, or a value that is not finite.
     """
-    X = v * np.asarray(t, dtype=float)
-    H, dHdx = under_wheels(robot, road, X.reshape(1, -1))
-    return np.concatenate([H[0], v * dHdx[0]]).reshape(4, *X.shape)
+    X = v * _checks.array("t", t)
+    H, dHdx = under_wheels(robot, road, X)
+    return np.concatenate([H, v * dHdx])
 
 
 def under_wheels(robot, road, X):
@@ -96,20 +91,22 @@ def under_wheels(robot, road, X):
         Gives L1 and L2.
     road : callable
         ``road(x) -> (H, dHdx)``.
-    X : ndarray, shape (s, n)
+    X : ndarray, shape (n,) or ()
 
     Returns
     -------
-    H, dHdx : ndarray, shape (s, 2, n)
+    H, dHdx : ndarray, shape (2, n) or (2,)
         Height in m and slope, rear wheel before front.
     """
-    x = X[:, None, :] + np.array([[-robot.L1], [robot.L2]])
+    x = np.add.outer(robot.arms, X)
     H, dHdx = profile(road, x.ravel())
     return H.reshape(x.shape), dHdx.reshape(x.shape)
 
 
 def profile(road, x):
     """Height and slope of a road at `x`, checked: finite, and of the shape of `x`."""
+    if not callable(road):
+        raise TypeError(f"road must be a callable, road(x) -> (H, dHdx), got {road!r}")
     value = road(x)
     try:
         H, dHdx = value

@@ -76,16 +76,35 @@ class Robot:
             check = _checks.nonnegative if field.name in ("g", "c1", "c2") else _checks.positive
             object.__setattr__(self, field.name, check(field.name, getattr(self, field.name)))
 
+    def __getstate__(self):
+        # Copies and pickles carry the parameters only, never arrays that somebody could write to.
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @_constant
+    def k(self):
+        """Stiffnesses, rear and front, N/m, shape (2,)."""
+        return np.array([self.k1, self.k2])
+
+    @_constant
+    def c(self):
+        """Damping coefficients, rear and front, N s/m, shape (2,)."""
+        return np.array([self.c1, self.c2])
+
+    @_constant
+    def arms(self):
+        """Where the wheels are, ahead of the centre of mass, ``[-L1, L2]``, m, shape (2,)."""
+        return np.array([-self.L1, self.L2])
+
     @_constant
     def C(self):
         """State to normal forces, Eqs. 2 and 5, shape (2, 4)."""
-        k1, k2, c1, c2, L1, L2 = self.k1, self.k2, self.c1, self.c2, self.L1, self.L2
-        return np.array([[-k1, -c1, k1 * L1, c1 * L1], [-k2, -c2, -k2 * L2, -c2 * L2]])
+        k, c, arms = self.k, self.c, self.arms
+        return -np.column_stack([k, c, k * arms, c * arms])
 
     @_constant
     def D(self):
         """Road input to normal forces, Eq. 5, shape (2, 4)."""
-        return np.array([[self.k1, 0.0, self.c1, 0.0], [0.0, self.k2, 0.0, self.c2]])
+        return np.hstack([np.diag(self.k), np.diag(self.c)])
 
     @_constant
     def S(self):
@@ -97,8 +116,10 @@ class Robot:
     @_constant
     def P(self):
         """Normal forces to accelerations, Eq. 6, shape (4, 2)."""
-        a = 1.0 / self.m
-        return np.array([[0, 0], [a, a], [0, 0], [-self.L1 / self.Izz, self.L2 / self.Izz]])
+        P = np.zeros((4, 2))
+        P[1] = 1 / self.m
+        P[3] = self.arms / self.Izz
+        return P
 
     @_constant
     def e(self):
@@ -108,12 +129,12 @@ class Robot:
     @_constant
     def A(self):
         """State matrix of ``w' = A w + B u + e``, shape (4, 4)."""
-        return self.S + _compose(self.P, self.C)
+        return self.S + _product(self.P, self.C)
 
     @_constant
     def B(self):
         """Input matrix of ``w' = A w + B u + e``, shape (4, 4)."""
-        return _compose(self.P, self.D)
+        return _product(self.P, self.D)
 
     @_constant
     def equilibrium(self):
@@ -125,12 +146,12 @@ class Robot:
         w[[0, 2]] = np.linalg.solve(self.A[np.ix_([1, 3], [0, 2])], -self.e[[1, 3]])
         return w + 0.0  # no -0.0
 
-    @_constant
+    @property
     def eigenvalues(self):
         """Eigenvalues of A in 1/s, shape (4,), complex: slowest first, conjugates together."""
         return self._eigen[0]
 
-    @_constant
+    @property
     def eigenvectors(self):
         """Eigenvectors of A as columns in the order of `eigenvalues`, shape (4, 4), complex."""
         return self._eigen[1:]
@@ -142,7 +163,7 @@ class Robot:
         return np.vstack([values, vectors])[:, order]
 
 
-def _compose(P, M):
-    # Each product is rounded before the sum, so that the two wheels of a symmetric robot cancel
-    # exactly; a fused multiply-add inside P @ M would leave couplings of 1e-13.
-    return (P[:, :, None] * M).sum(axis=1)
+def _product(P, M):
+    # Without the fused multiply-add of P @ M, which would leave couplings of 1e-13 between heave
+    # and pitch of a symmetric robot, where the two wheels cancel exactly.
+    return np.einsum("ij,jk->ik", P, M)

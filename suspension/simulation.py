@@ -1,24 +1,26 @@
 """Drive the robot over a road with a one-step method.
 
-The motion is linear, so one step of any scheme is ``w_{n+1} = R w_n + b_n`` with a constant
-matrix R, which `suspension.recurrence` runs many steps at a time.
+The motion is linear, so one step of any scheme is ``w_{n+1} = R w_n + b_n`` with a constant matrix
+R. All steps together, ``w_{n+1} - R w_n = b_n``, are one triangular system with a narrow band, and
+solving it from the top down *is* the time loop: LAPACK's ``dtbtrs`` runs it.
 """
 
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from scipy.linalg.lapack import dtbtrs
 
 from suspension import _checks
-from suspension.contact import first_loss
-from suspension.recurrence import Discrete
+from suspension.forces import Loss, first_loss
 from suspension.road import under_wheels
+from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["Trajectory", "simulate", "steps"]
 
 MAX_STEPS = 10**8
-CHUNK = 8192  # steps whose arrays stay in the processor's cache
+CHUNK = 8192  # steps solved at a time, so that their arrays stay in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,14 +48,20 @@ class Trajectory:
     scheme: Scheme
 
     @property
-    def loss(self):
-        """First sample without contact: `suspension.contact.Loss`, or None."""
+    def loss(self) -> Loss | None:
+        """First sample without contact: `suspension.forces.Loss`, or None."""
         return first_loss(self.T, self.N)
 
     @property
     def X(self):
         """Position of the centre of mass, m (Eq. 1), shape (J+1,)."""
         return self.v * self.T
+
+    def __repr__(self):
+        return (
+            f"<Trajectory: {self.scheme.name}, v = {self.v:g} m/s, dt = {self.dt:g} s, "
+            f"{len(self.T) - 1} steps to t = {self.T[-1]:g} s>"
+        )
 
 
 def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
@@ -95,34 +103,68 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     >>> simulate(Robot(800, 800), FlatRoad(), v=1, dt=0.1, tfinal=1).N[:, -1].round(4)
     array([7.1417, 7.1417])
     """
-    v, dt = _checks.number("v", v), _checks.positive("dt", dt)
+    _checks.instance("robot", robot, Robot)
     _checks.instance("scheme", scheme, Scheme)
-    T = dt * np.arange(steps(tfinal, dt) + 1)
-    rest = robot.equilibrium
-    w0 = rest if w0 is None else _checks.array("w0", w0, (4,))
-    W, N = np.empty((4, len(T))), np.empty((2, len(T)))
-    run = _discrete(robot, scheme, dt)
-    later = run.abscissae[:, None] * dt
-    k, vc = np.array([[robot.k1, robot.k2], [v * robot.c1, v * robot.c2]])[..., None]
-    # About the equilibrium the weight drops out: every scheme stays there exactly.
-    x, offset = None, np.concatenate([rest, robot.C @ rest])[:, None]
-    for j in range(0, len(T), CHUNK):
-        part = slice(j, j + CHUNK)
-        X = v * np.minimum(T[part] + later, T[-1])  # no road is asked for beyond the end
-        H, dHdx = under_wheels(robot, road, X)
-        f = (k * H + vc * dHdx).reshape(-1, X.shape[-1])  # D u
-        y, x = run(run.start(w0 - rest, f) if x is None else x, f)
-        np.add(y[:4], offset[:4], out=W[:, part])
-        np.add(y[4:], offset[4:], out=N[:, part])
-    W[:, 0] = w0
-    return Trajectory(T, W, N, v, dt, scheme)
+    v, dt = _checks.number("v", v), _checks.positive("dt", dt)
+    equilibrium = robot.equilibrium
+    w0 = equilibrium if w0 is None else _checks.array("w0", w0, (4,))
+    J = steps(tfinal, dt)
+    T = dt * np.arange(J + 1)
+    W, N = np.empty((J + 1, 4)), np.empty((2, J + 1))
+    R, stages, band = _step(robot, scheme, dt)
+    W[0] = w0 - equilibrium  # of the deviation, first: the weight drops out
+    for start in range(0, J, CHUNK):
+        t = T[start : start + CHUNK + 1]
+        part = slice(start, start + len(t))
+        ends = _road_force(robot, road, v, t)
+        b = np.zeros((len(t) - 1, 4))
+        for c, GP in stages:
+            if c == 0:
+                f = ends[:, :-1]
+            elif c == 1:
+                f = ends[:, 1:]
+            else:
+                f = _road_force(robot, road, v, t[:-1] + c * dt)
+            b += f.T @ GP.T
+        b[0] += R @ W[start]
+        W[part][1:] = _forward_substitution(band, b)
+        N[:, part] = robot.C @ W[part].T + ends
+    W += equilibrium
+    W[0] = w0
+    N += (robot.C @ equilibrium)[:, None]
+    return Trajectory(T, W.T, N, v, dt, scheme)
 
 
-@lru_cache(maxsize=32)
-def _discrete(robot, scheme, dt):
-    # The road acts by f = D u alone: w' = A w + P f + e, and N = C w + f.
-    C, D = np.vstack([np.eye(4), robot.C]), np.vstack([np.zeros((4, 2)), np.eye(2)])
-    return Discrete(scheme, robot.A, robot.P, C, D, dt)
+@lru_cache(maxsize=8)
+def _step(robot, scheme, dt):
+    """What every step needs: R, ``(c, G_c P)`` for the different abscissae c, and the band."""
+    R, G = scheme.one_step(robot.A, dt)
+    stages = [(c, G[scheme.c == c].sum(axis=0) @ robot.P) for c in np.unique(scheme.c)]
+    return R, stages, _band(R, CHUNK)
+
+
+def _road_force(robot, road, v, t):
+    """What the road adds to the normal forces, ``D u``, shape (2, n)."""
+    H, dHdx = under_wheels(robot, road, v * t)
+    return robot.k[:, None] * H + (v * robot.c)[:, None] * dHdx
+
+
+def _band(R, steps):
+    """The matrix of ``w_{n+1} - R w_n``, its lower band by columns, shape (8, 4 steps).
+
+    Entry ``[d, j]`` is that of column j, d rows below the diagonal.
+    """
+    columns = np.zeros((4, 8))
+    columns[:, 0] = 1
+    for j in range(4):
+        columns[j, 4 - j : 8 - j] = -R[:, j]
+    return np.tile(columns, (steps, 1)).T
+
+
+def _forward_substitution(band, b):
+    """Solve ``w_{n+1} - R w_n = b_n`` for n = 0, 1, ..; `b` and the result have shape (steps, 4)."""
+    w, _ = dtbtrs(band[:, : b.size], b.ravel(), uplo="L", diag="U", overwrite_b=True)
+    return w.reshape(b.shape)
 
 
 def steps(tfinal, dt):

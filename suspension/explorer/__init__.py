@@ -18,10 +18,9 @@ import numpy as np
 import traitlets
 
 from suspension import _checks
-from suspension.animation import RobotDrawing
-from suspension.explorer_tables import region, road_table, robot_table, step_table, vary_stiffness
-from suspension.plots import plot_forces, plot_stability
-from suspension.report import WHEEL
+from suspension.explorer.tables import region, road_table, robot_table, step_table, vary_stiffness
+from suspension.figures import RobotDrawing, plot_forces, plot_stability
+from suspension.forces import WHEEL
 from suspension.schemes import CRANK_NICOLSON, RK4
 from suspension.simulation import simulate
 
@@ -32,8 +31,8 @@ SCHEMES = (CRANK_NICOLSON, RK4)
 DTS = (0.2, 0.1, 0.08, 0.07, 0.06, 0.05, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005, 0.00025)
 VMIN, VMAX = 0.1, 25.0
 MOMENTS = 1000  # stops of the time slider
-HERE = Path(__file__).parent
-SCRIPTS = ("explorer_model.js", "explorer_pen.js", "explorer_panels.js", "explorer.js")
+PAGE = Path(__file__).parent / "page"
+SCRIPTS = ("model.js", "pen.js", "panels.js", "view.js")
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
@@ -55,8 +54,8 @@ class Explorer(anywidget.AnyWidget):
     """
 
     # One module for the browser, kept as four files for its readers.
-    _esm = "".join((HERE / name).read_text(encoding="utf-8") for name in SCRIPTS)
-    _css = (HERE / "explorer.css").read_text(encoding="utf-8")
+    _esm = "".join((PAGE / name).read_text(encoding="utf-8") for name in SCRIPTS)
+    _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
 
     v = traitlets.Float(1.2).tag(sync=True)
     dt_index = traitlets.Int(0).tag(sync=True)
@@ -226,7 +225,7 @@ def still(explorer):
         f"at {run.v:g} metres per second {lifts}, the smallest force is {run.N.min():.3g} newtons, "
         f"and a step of {1000 * run.dt:g} milliseconds is {'' if stable else 'un'}stable."
     )
-    with plt.style.context("suspension.report"):
+    with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(
             [["robot", "robot"], ["forces", "stability"]], figsize=(7.2, 4.8),
             height_ratios=[1, 1.6], width_ratios=[1.7, 1],

@@ -20,12 +20,12 @@ from test_explorer import PARITY, largest_difference
 from suspension.contact import first_loss
 from suspension.course import the_robot
 from suspension.explorer import DTS, SCHEMES, explore
-from suspension.explorer_tables import vary_stiffness
+from suspension.explorer.tables import vary_stiffness
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 BOX = ".suspension-explorer-box"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Moment"]
 STATE = "application/vnd.jupyter.widget-state+json"

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy import integrate, linalg
 
 from suspension import exact
-from suspension.exact import Crossing, E, flat_ground, over_bump
+from suspension.exact import Crossing, bump_memory, flat_ground, over_bump
 from suspension.road import FlatRoad, GaussianBump, road_input
 from suspension.robot import Robot
 
@@ -242,13 +242,13 @@ def test_E_is_an_integral_over_the_past(kappa):
             lambda s, u=u: np.exp(kappa * (u - s) - s * s), -9, u,
             complex_func=True, epsabs=1e-14, epsrel=1e-13, limit=500,
         )  # fmt: skip
-        assert abs(E(u, kappa) - 2 / np.sqrt(np.pi) * expected) < 1e-13
+        assert abs(bump_memory(u, kappa) - 2 / np.sqrt(np.pi) * expected) < 1e-13
 
 
 @quick
 @given(u=st.floats(-1e3, 1e3), damping=st.floats(0, 1e8), swing=st.floats(-1e8, 1e8))
 def test_E_is_bounded_for_every_damped_mode(u, damping, swing):
-    assert abs(E(u, complex(-damping, swing))) <= 2 * (1 + 1e-12)
+    assert abs(bump_memory(u, complex(-damping, swing))) <= 2 * (1 + 1e-12)
 
 
 # --- properties of the solution ---------------------------------------------------------------

@@ -1,13 +1,10 @@
-"""Figures of Part IV, about errors: each function draws what it is given and returns its axes."""
+"""Figures of errors: against step and cost, in the modes, and in a dip that was missed."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from suspension.plots import MARKERS
+from suspension.figures.style import LINES, MARKERS, axes_or_new
 
 __all__ = ["plot_errors", "plot_heave", "plot_missed_dip", "plot_seen_mode"]
-
-LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))
 
 
 def plot_errors(x, errors, ax=None):
@@ -20,7 +17,7 @@ def plot_errors(x, errors, ax=None):
     errors : dict of str to array_like, shape (n,)
         A curve for each name.
     """
-    ax = plt.subplots()[1] if ax is None else ax
+    ax = axes_or_new(ax)
     for k, (name, error) in enumerate(errors.items()):
         at = x[name] if isinstance(x, dict) else x
         style = LINES[k % len(LINES)]
@@ -31,7 +28,7 @@ def plot_errors(x, errors, ax=None):
 
 def plot_heave(X, heave, ax=None):
     """Heave against position for several speeds; `heave` is a dict of speed, m/s, to m."""
-    ax = plt.subplots()[1] if ax is None else ax
+    ax = axes_or_new(ax)
     for (v, y), style in zip(heave.items(), LINES):
         ax.plot(X, 1000 * y, ls=style, label=f"v = {v:g} m/s")
     ax.set(xlabel="position $X$ (m)", ylabel=r"$Y - Y_\mathrm{eq}$ (mm)")

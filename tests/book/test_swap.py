@@ -11,7 +11,7 @@ import pytest
 import scipy.io
 from nbclient import NotebookClient
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def spring_table(stiffness):

@@ -1,64 +1,20 @@
-"""Sentences and tables made from numbers, as Markdown for a notebook and for the book."""
-
-import ast
-import inspect
+"""Rows of the report's tables, a dict each, and a Markdown table made from them."""
 
 import numpy as np
-from IPython.display import Markdown, display
+
+from suspension.forces import WHEEL
+from suspension.report.words import join
 
 __all__ = [
-    "WHEEL",
-    "answer",
-    "confidence",
     "error_rows",
     "flight_row",
-    "join",
     "lost_speeds",
     "matrix_rows",
     "mode_rows",
-    "ranges",
-    "say",
-    "source",
     "stability_rows",
     "table",
     "verdict",
 ]
-
-WHEEL = {1: "rear", 2: "front"}
-
-
-def say(*parts, name=None):
-    """Show Markdown paragraphs that a computation has filled in.
-
-    With a `name`, other pages of the book can quote them: the metadata is what MyST-NB's
-    ``glue()`` writes.
-    """
-    metadata = {"scrapbook": {"name": name, "mime_prefix": ""}} if name else {}
-    display(Markdown("\n\n".join(parts)), metadata=metadata)
-
-
-def answer(item, *parts):
-    """Show the answer to one asked item; other pages quote ``1(ii)`` as ``answer-1-ii``.
-
-    Parameters
-    ----------
-    item : str
-        The problem's own number, ``"1(ii)"``.
-    *parts : str
-        Markdown paragraphs; the first follows the item's number.
-    """
-    name = "answer-" + item.replace("(", "-").replace(")", "")
-    say(f"**Answer {item}.** {parts[0]}", *parts[1:], name=name)
-
-
-def source(function):
-    """The code of a function as a Markdown block, without its docstring."""
-    code = inspect.getsource(function)
-    doc = ast.parse(code).body[0].body[0]
-    lines = code.splitlines()
-    if ast.get_docstring(ast.parse(code).body[0]):
-        del lines[doc.lineno - 1 : doc.end_lineno]
-    return "\n".join(["```python", *lines, "```"])
 
 
 def table(rows):
@@ -75,18 +31,6 @@ def table(rows):
     rule = "|" + "|".join("--:" if right else ":--" for right in numeric) + "|"
     head, *body = ["| " + " | ".join(line) + " |" for line in [names, *cells]]
     return "\n".join([head, rule, *body])
-
-
-def join(items, last="and", none="none"):
-    """Words in a row: ``a, b and c``.
-
-    >>> join(["1.2", "5", "10"], "or")
-    '1.2, 5 or 10'
-    """
-    items = list(map(str, items))
-    if len(items) < 2:
-        return items[0] if items else none
-    return ", ".join(items[:-1]) + f" {last} " + items[-1]
 
 
 def verdict(trajectory):
@@ -161,25 +105,6 @@ def error_rows(trajectories, theta):
     ]
 
 
-def ranges(edges, lost):
-    """Ranges of speed in words, from their edges in m/s and whether contact is lost in each.
-
-    >>> ranges([0.1, 0.4, 30], [False, True])
-    'kept up to 0.4 m/s and lost from there on'
-    """
-    words = []
-    for i, gone in enumerate(lost):
-        where = f"from {edges[i]:.3g} to {edges[i + 1]:.3g} m/s"
-        if len(lost) == 1:
-            where = f"at every speed {where}"
-        elif i == 0:
-            where = f"up to {edges[1]:.3g} m/s"
-        elif i == len(lost) - 1:
-            where = "from there on"
-        words.append(f"{'lost' if gone else 'kept'} {where}")
-    return join(words)
-
-
 def flight_row(flight, robot):
     """One row of a table of flights: how many, how long, how high, how hard, and settled when."""
     landings = [event for event in flight.events if event.kind == "landing"]
@@ -194,14 +119,3 @@ def flight_row(flight, robot):
         "largest force (N)": f"{flight.N.max():.1f}",
         "settled at (s)": f"{flight.settled(robot):.2f}",
     }
-
-
-def confidence(p):
-    """A probability as a percentage that never claims certainty.
-
-    >>> confidence(0.5), confidence(1.0)
-    ('50.00 %', '> 99.99 %')
-    """
-    if p < 1e-4:
-        return "< 0.01 %"
-    return "> 99.99 %" if p > 0.9999 else f"{100 * p:.2f} %"

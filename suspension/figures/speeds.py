@@ -1,22 +1,15 @@
-"""Figures of Parts V and VI: each function draws what it is given and returns its axes."""
+"""Figures over speed: the margin, what it depends on, and how far springs and body move."""
 
 from itertools import pairwise
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.ticker import NullLocator
 
-__all__ = [
-    "plot_flight",
-    "plot_margin",
-    "plot_margin_map",
-    "plot_sensitivities",
-    "plot_travel",
-]
+from suspension.figures.style import COLOURS, LINES, axes_or_new
+from suspension.forces import WHEEL
 
-def _axes(ax):
-    return plt.subplots()[1] if ax is None else ax
+__all__ = ["plot_margin", "plot_margin_map", "plot_sensitivities", "plot_travel"]
 
 
 def _speed_axis(ax, v):
@@ -41,7 +34,7 @@ def plot_margin(v, N, critical, asked=(), ax=None):
     asked : sequence of float
         Speeds to mark on the curve of the margin.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     margin = np.min(N, axis=0)
     edges = [v[0], *critical, v[-1]]
     for left, right in pairwise(edges):
@@ -79,7 +72,7 @@ def plot_margin_map(v, k, margin, fitted, interval, asked=(), ax=None):
     asked : sequence of float
         Speeds to mark.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     levels = [-30, -20, -10, -5, 0, 1, 2, 4, 7]
     filled = ax.contourf(
         v, k, margin, levels, cmap="RdBu", norm=TwoSlopeNorm(0, -30, 7), extend="min"
@@ -105,7 +98,7 @@ def plot_sensitivities(speeds, percent, ax=None):
     percent : dict of str to array_like, shape (n,)
         For each parameter.
     """
-    ax = _axes(ax)
+    ax = axes_or_new(ax)
     place = np.arange(len(percent))
     for i, (speed, hatch) in enumerate(zip(speeds, ("", "//", "..", "xx", "--"))):
         height = [values[i] for values in percent.values()]
@@ -140,26 +133,4 @@ def plot_travel(v, compression, pitch, delta_max, axes):
     axes[1].set(ylabel="pitch (degrees)", ylim=(0, None))
     for ax in axes:
         _speed_axis(ax, v)
-    return axes
-
-
-def plot_flight(flight, linear, axes):
-    """Forces and heights of the wheels in flight, beside the forces of the linear model.
-
-    Parameters
-    ----------
-    flight : Flight
-    linear : Trajectory
-        The same run with a ground that may pull.
-    axes : two Axes
-    """
-    axes[0].axhline(0, color="0.3", lw=0.8)
-    for i, name in enumerate(("rear", "front")):
-        axes[0].plot(linear.T, linear.N[i], color=f"C{i}", ls=":", lw=1, alpha=0.8)
-        style = {"color": f"C{i}", "ls": ("-", "--")[i]}
-        axes[0].plot(flight.T, flight.N[i], **style, label=f"{name} wheel")
-        axes[1].plot(flight.T, 1000 * flight.gaps[i], **style)
-    axes[0].set(ylabel="normal force (N)", title=f"$v$ = {flight.v:g} m/s")
-    axes[1].set(ylabel="wheel above\nground (mm)", xlabel="time $t$ (s)")
-    axes[0].legend(loc="upper right", ncols=2)
     return axes

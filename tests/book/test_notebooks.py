@@ -8,7 +8,7 @@ import nbformat
 import pytest
 from normalise import normalise
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 MYST = re.compile(r"\{[a-z:-]+\}`|^(```|:::+) ?\{|^\(.*\)=$", re.MULTILINE)
 PATHS = sorted(ROOT.glob("notebooks/*.ipynb"))
 pytestmark = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import integrate
 
 from suspension.exact import Crossing, over_bump
-from suspension.margin import forces, margin, minima, turning_points
+from suspension.least_force import exact_forces, margin, minima, turning_points
 from suspension.road import FlatRoad, GaussianBump, road_input
 from suspension.robot import Robot
 from suspension.simulation import simulate
@@ -86,19 +86,19 @@ def test_the_four_speeds_of_the_problem(k, lost):
 def test_no_finer_sample_lies_below_the_minimum_nor_far_above(robot, bump, v):
     crossing = Crossing(robot, bump, v)
     t = np.linspace(0, 1.25 / v, 10_001)
-    N = forces(crossing, t)[0]
+    N = exact_forces(crossing, t)[0]
     for wheel, minimum in enumerate(minima(robot, bump, v)):
         swing = np.ptp(N[wheel]) + 1
         assert minimum.force <= N[wheel].min() + 1e-12 * swing
         assert minimum.force >= N[wheel].min() - 1e-2 * swing
-        assert forces(crossing, np.array([minimum.t]))[0, wheel, 0] == pytest.approx(minimum.force)
+        assert exact_forces(crossing, np.array([minimum.t]))[0, wheel, 0] == pytest.approx(minimum.force)
 
 
 @pytest.mark.parametrize("v", [0.7, 2.0, 9.0])
 def test_two_modes_that_never_die_are_least_when_they_meet_long_after(v):
     crossing = Crossing(Robot(500, 1100, L1=0.09, L2=0.13, c1=0, c2=0), BUMP, v)
     t, N = turning_points(crossing, 40.0)
-    fine = forces(crossing, np.linspace(0, 40, 200_001))[0]
+    fine = exact_forces(crossing, np.linspace(0, 40, 200_001))[0]
     assert t[N.argmin(axis=1)].max() > 5
     np.testing.assert_allclose(N.min(axis=1), fine.min(axis=1), rtol=0, atol=1e-3)
     assert (N.min(axis=1) <= fine.min(axis=1) + 1e-12).all()
@@ -109,7 +109,7 @@ def test_two_modes_that_never_die_are_least_when_they_meet_long_after(v):
 def test_a_minimum_inside_the_run_is_level(robot, bump, v):
     for i, minimum in enumerate(minima(robot, bump, v)):
         if 0 < minimum.t < 1.25 / v:
-            N, slope, bend = forces(Crossing(robot, bump, v), np.array([minimum.t]), 2)[:, i, 0]
+            N, slope, bend = exact_forces(Crossing(robot, bump, v), np.array([minimum.t]), 2)[:, i, 0]
             scale = np.abs(bend) * minimum.t + abs(N) / minimum.t
             assert abs(slope) <= 1e-9 * scale
             assert bend >= -1e-9 * scale / minimum.t
@@ -119,8 +119,8 @@ def test_forces_are_equation_5_and_its_derivatives():
     robot, v = Robot(500, 1100, L1=0.09, L2=0.13, c1=1, c2=4), 1.7
     t, step = np.linspace(0.01, 0.6, 80), 1e-6
     crossing = Crossing(robot, BUMP, v)
-    N, slope, bend = forces(crossing, t, 2)
-    before, after = forces(crossing, t - step, 1), forces(crossing, t + step, 1)
+    N, slope, bend = exact_forces(crossing, t, 2)
+    before, after = exact_forces(crossing, t - step, 1), exact_forces(crossing, t + step, 1)
     by_hand = robot.C @ over_bump(robot, BUMP, v, t) + robot.D @ road_input(robot, BUMP, v, t)
     np.testing.assert_allclose(N, by_hand, rtol=0, atol=1e-11)
     for value, n in ((slope, 0), (bend, 1)):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from suspension.critical import critical_speeds, critical_stiffness, sensitivity, zeros
-from suspension.margin import margin, minima
+from suspension.least_force import margin, minima
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 

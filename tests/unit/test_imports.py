@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[1] / "suspension"
+PACKAGE = Path(__file__).parents[2] / "suspension"
 # Helpers beside these may stand anywhere, as long as nothing reaches what comes after it.
 ORDER = (
     "_checks springs robot road schemes exact contact simulation flight course "

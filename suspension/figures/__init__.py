@@ -1,0 +1,34 @@
+"""Figures of the report: a function draws what it is given and returns its axes.
+
+Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
+the style. One module for each subject: `regression`, `stability`, `forces`, `errors`, `speeds`,
+and `robot`, the robot itself, still or moving.
+"""
+
+from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
+from suspension.figures.forces import plot_flight, plot_forces
+from suspension.figures.regression import plot_confidence_region, plot_fit, plot_residuals
+from suspension.figures.robot import RobotDrawing, animate_robot, film
+from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
+from suspension.figures.stability import plot_growth, plot_stability
+
+__all__ = [
+    "RobotDrawing",
+    "animate_robot",
+    "film",
+    "plot_confidence_region",
+    "plot_errors",
+    "plot_fit",
+    "plot_flight",
+    "plot_forces",
+    "plot_growth",
+    "plot_heave",
+    "plot_margin",
+    "plot_margin_map",
+    "plot_missed_dip",
+    "plot_residuals",
+    "plot_seen_mode",
+    "plot_sensitivities",
+    "plot_stability",
+    "plot_travel",
+]

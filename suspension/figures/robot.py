@@ -1,0 +1,131 @@
+"""The robot drawn in true proportions, still or moving (the problem's ``animate_robot``)."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import FuncAnimation
+
+from suspension import _checks
+from suspension.course import Hgauss, the_robot
+from suspension.figures.style import COLOURS
+
+__all__ = ["RobotDrawing", "animate_robot", "film"]
+
+
+class RobotDrawing:
+    """A body on two springs over a road, in an axes; `update` moves it.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+    robot : Robot
+        Gives the distances L1 and L2 to the wheels.
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    body : float
+        How far above the unstretched springs' ends the body is drawn, m; the model needs no such
+        height.
+    """
+
+    def __init__(self, ax, robot, road, body=0.06):
+        self.ax, self.robot, self.road, self.body = ax, robot, road, body
+        (self.line,) = ax.plot([], [], "-", color="0.2", lw=4, solid_capstyle="round")
+        (self.centre,) = ax.plot([], [], "o", color="white", mec="0.2", ms=5, zorder=3)
+        self.springs = [ax.plot([], [], "-", color=c, lw=1.2)[0] for c in COLOURS]
+        self.wheels = [ax.plot([], [], "o", color=c, ms=8, mec="white")[0] for c in COLOURS]
+
+    def update(self, w, X, gaps=None):
+        """Draw state `w`, shape (4,), with the centre of mass at `X` in m.
+
+        A wheel stands on the ground where ``Y_i <= h_i`` and otherwise hangs from its unstretched
+        spring. `gaps`, shape (2,), in m, says instead how far each wheel is above the ground.
+        """
+        x = X + np.array([-self.robot.L1, self.robot.L2])
+        y = w[0] + w[2] * (x - X)
+        h = self.road(x)[0]
+        foot = np.maximum(y, h) if gaps is None else h + gaps
+        top = y + self.body
+        self.line.set_data(x, top)
+        self.centre.set_data([X], [w[0] + self.body])
+        for i, (spring, wheel) in enumerate(zip(self.springs, self.wheels)):
+            wheel.set_data([x[i]], [foot[i]])
+            spring.set_data(_zigzag(x[i], foot[i], top[i]))
+        return [self.line, self.centre, *self.springs, *self.wheels]
+
+    def ground(self, left, right):
+        """Draw the road from `left` to `right`, m, and fit the view to it in true proportions."""
+        x = np.linspace(left, right, 2001)
+        H = self.road(x)[0]
+        self.ax.fill_between(x, H, H.min() - 0.03, color="0.88", lw=0)
+        self.ax.plot(x, H, color="0.45", lw=1)
+        self.ax.set(xlim=(left, right), ylim=(H.min() - 0.03, H.max() + 2.2 * self.body))
+        self.ax.set(aspect="equal", xlabel="x (m)", ylabel="y (m)")
+        self.ax.grid(False)
+
+
+def _zigzag(x, bottom, top, coils=5, width=0.007):
+    t = np.linspace(0, 1, 2 * coils + 3)
+    side = np.zeros_like(t)
+    side[2:-2] = width * np.where(np.arange(len(t) - 4) % 2, 1, -1)
+    return x + side, bottom + t * (top - bottom)
+
+
+def animate_robot(W, T, v, steps_per_frame=1, *, robot=None, road=None):
+    """Animate a computed run.
+
+    Parameters
+    ----------
+    W : array_like, shape (4, J+1)
+        States.
+    T : array_like, shape (J+1,)
+        Times, s.
+    v : float
+        Speed, m/s.
+    steps_per_frame : int
+        How many integration steps one frame advances, >= 1.
+    robot : Robot, optional
+        The problem's robot with the fitted springs if not given.
+    road : callable, optional
+        The problem's bump if not given.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        Keep a reference to it; ``.save("run.gif", writer="pillow")`` writes a file.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit, or `steps_per_frame` is not a whole number >= 1.
+    """
+    T = _checks.array("T", T, (None,))
+    W = _checks.array("W", W, (4, len(T)))
+    X = _checks.number("v", v) * T
+    stride = _checks.whole("steps_per_frame", steps_per_frame, 1)
+    robot = the_robot() if robot is None else robot
+    figure, ax = plt.subplots(figsize=(7.2, 2.2), layout="constrained")
+    drawing = RobotDrawing(ax, robot, Hgauss if road is None else road)
+    drawing.ground(min(X.min(), 0) - 2 * robot.L1, max(X.max(), 0.5) + 2 * robot.L2)
+    clock = ax.text(0.01, 0.93, "", transform=ax.transAxes, va="top")
+
+    def draw(j):
+        clock.set_text(f"t = {T[j]:.3f} s,  v = {v:g} m/s")
+        return [*drawing.update(W[:, j], X[j]), clock]
+
+    frames = range(0, len(T), stride)
+    interval = max(1000 * stride * np.diff(T).mean(), 20) if len(T) > 1 else 20  # ms
+    return FuncAnimation(figure, draw, frames=frames, interval=interval, blit=True)
+
+
+def film(history, robot, road, times):
+    """A strip of frames, one below the other, of a Trajectory or a Flight at the given times, s."""
+    figure, axes = plt.subplots(len(times), sharex=True, figsize=(7.2, 1.35 * len(times)))
+    gaps = getattr(history, "gaps", None)
+    X = history.v * np.asarray(times)
+    for ax, t, x in zip(np.atleast_1d(axes), times, X, strict=True):
+        j = np.abs(history.T - t).argmin()
+        drawing = RobotDrawing(ax, robot, road)
+        drawing.ground(X.min() - 2 * robot.L1, X.max() + 2 * robot.L2)
+        drawing.update(history.W[:, j], x, None if gaps is None else gaps[:, j])
+        ax.text(0.01, 0.93, f"t = {t:.3f} s", transform=ax.transAxes, va="top")
+        ax.label_outer()
+    return figure

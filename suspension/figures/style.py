@@ -1,0 +1,14 @@
+"""What all figures share: colours and line styles of the wheels, symbols, and an axes to draw on."""
+
+import matplotlib.pyplot as plt
+
+__all__ = ["COLOURS", "LINES", "MARKERS", "axes_or_new"]
+
+COLOURS = ("C0", "C1")  # rear, front
+LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))  # rear, front, others
+MARKERS = "o^sDvPX*"
+
+
+def axes_or_new(ax):
+    """Return `ax`, or the axes of a new figure if it is None."""
+    return plt.subplots()[1] if ax is None else ax

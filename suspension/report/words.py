@@ -1,0 +1,159 @@
+"""Numbers, ranges and lists as words: the one place where the report decides how they look.
+
+A minus is a true minus sign, powers of ten are written as such, units stand beside their numbers
+(with a space that does not break), and nothing claims more digits than it is given.
+"""
+
+import math
+
+__all__ = [
+    "confidence",
+    "count",
+    "fixed",
+    "interval",
+    "join",
+    "number",
+    "percent",
+    "pvalue",
+    "quantity",
+    "ranges",
+    "speed_list",
+]
+
+SPACE = "\u00a0"  # does not break a line
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def number(x, digits=3):
+    """A number in significant digits, with powers of ten where it is very large or small.
+
+    >>> number(-24.567), number(3.736e-05), number(1200), number(0.0), number(2.345e20, 2)
+    ('−24.6', '3.74 × 10⁻⁵', '1200', '0', '2.3 × 10²⁰')
+    """
+    x = float(x)
+    if not math.isfinite(x):
+        raise ValueError(f"x must be finite to be written, got {x}")
+    mantissa, power = f"{x:.{digits - 1}e}".split("e")
+    power = int(power)
+    if x == 0:
+        return "0"
+    if -4 < power < max(digits, 5):
+        text = f"{float(f'{mantissa}e{power}'):.{max(digits - 1 - power, 0)}f}"
+    else:
+        text = f"{mantissa}{SPACE}×{SPACE}10" + str(power).translate(RAISED)
+    return text.replace("-", "−")
+
+
+def fixed(x, decimals):
+    """A number with so many decimals, and never a negative zero.
+
+    >>> fixed(-24.567, 2), fixed(-0.0001, 2)
+    ('−24.57', '0.00')
+    """
+    x = float(x)
+    if not math.isfinite(x):
+        raise ValueError(f"x must be finite to be written, got {x}")
+    return f"{round(x, decimals) + 0.0:.{decimals}f}".replace("-", "−")
+
+
+def quantity(x, unit, digits=3):
+    """A number with its unit.
+
+    >>> quantity(0.0165, "m")
+    '0.0165\\xa0m'
+    """
+    return number(x, digits) + SPACE + unit
+
+
+def percent(fraction, digits=2):
+    """A fraction as a percentage, in significant digits.
+
+    >>> percent(0.95), percent(0.00213)
+    ('95\\xa0%', '0.21\\xa0%')
+    """
+    return quantity(100 * fraction, "%", digits)
+
+
+def pvalue(p):
+    """A p-value, never rounded to nothing.
+
+    >>> pvalue(0.567), pvalue(0.00001)
+    ('p\\xa0=\\xa00.57', 'p\\xa0<\\xa00.001')
+    """
+    if p < 0.001:
+        return f"p{SPACE}<{SPACE}0.001"
+    return f"p{SPACE}={SPACE}{number(p, 2)}"
+
+
+def confidence(p):
+    """A probability as a percentage that never claims certainty.
+
+    >>> confidence(0.5), confidence(1.0)
+    ('50.00\\xa0%', '>\\xa099.99\\xa0%')
+    """
+    if p < 1e-4:
+        return f"<{SPACE}0.01{SPACE}%"
+    if p > 0.9999:
+        return f">{SPACE}99.99{SPACE}%"
+    return fixed(100 * p, 2) + SPACE + "%"
+
+
+def interval(low, high, unit="", decimals=3):
+    """Two ends and their unit, with so many decimals.
+
+    >>> interval(-0.2081, 0.1794, "N")
+    '−0.208 to 0.179\\xa0N'
+    """
+    return f"{fixed(low, decimals)} to {fixed(high, decimals)}" + (SPACE + unit if unit else "")
+
+
+def count(n, noun, plural=None):
+    """How many of a thing, in words up to nine.
+
+    >>> count(0, "flight"), count(1, "flight"), count(4, "speed"), count(12, "point")
+    ('no flights', 'one flight', 'four speeds', '12 points')
+    """
+    words = "no one two three four five six seven eight nine".split()
+    how_many = words[n] if n < len(words) else str(n)
+    return f"{how_many} {noun if n == 1 else plural or noun + 's'}"
+
+
+def join(items, last="and", none="none"):
+    """Words in a row: ``a, b and c``.
+
+    >>> join(["1.2", "5", "10"], "or")
+    '1.2, 5 or 10'
+    """
+    items = list(map(str, items))
+    if len(items) < 2:
+        return items[0] if items else none
+    return ", ".join(items[:-1]) + f" {last} " + items[-1]
+
+
+def speed_list(speeds, last="and", none="no speed"):
+    """Speeds in m/s in a row.
+
+    >>> speed_list([1.2, 5]), speed_list([])
+    ('1.2 and 5\\xa0m/s', 'no speed')
+    """
+    words = join([number(v) if v != float(f"{v:g}") else f"{v:g}" for v in speeds], last, none)
+    return words + SPACE + "m/s" if len(speeds) else words
+
+
+def ranges(edges, lost):
+    """Ranges of speed in words, from their edges in m/s and whether contact is lost in each.
+
+    >>> ranges([0.1, 0.4, 30], [False, True])
+    'kept up to 0.400\\xa0m/s and lost from there on'
+    """
+    words = []
+    for i, gone in enumerate(lost):
+        where = f"from {number(edges[i])} to {number(edges[i + 1])}{SPACE}m/s"
+        if len(lost) == 1:
+            where = f"at every speed {where}"
+        elif i == 0:
+            where = f"up to {number(edges[1])}{SPACE}m/s"
+        elif i == len(lost) - 1:
+            where = "from there on"
+        words.append(f"{'lost' if gone else 'kept'} {where}")
+    return join(words)
