@@ -1,17 +1,29 @@
 """Arguments that cannot mean anything are refused, by name, before any computing starts."""
 
+from numbers import Number
 from reprlib import repr as short
 
 import numpy as np
 
-__all__ = ["array", "instance", "interval", "nonnegative", "number", "one_of", "positive", "whole"]
+__all__ = [
+    "array",
+    "function",
+    "instance",
+    "interval",
+    "nonnegative",
+    "number",
+    "one_of",
+    "positive",
+    "whole",
+]
 
 
 def number(name, value, allowed="a finite number", test=lambda x: True):
     """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
+    scalar = np.ndim(value) == 0 and not np.ma.is_masked(value)
+    real = scalar and (isinstance(value, Number) or np.asarray(value).dtype.kind in "biuf")
     try:
-        unfit = isinstance(value, str | bytes) or np.iscomplexobj(value) or np.ma.is_masked(value)
-        x = np.nan if unfit else float(value)
+        x = float(value) if real and not np.iscomplexobj(value) else np.nan
     except (TypeError, ValueError, OverflowError):
         x = np.nan
     if not (np.isfinite(x) and test(x)):
@@ -54,6 +66,13 @@ def instance(name, value, kind):
     """Return `value` if it is a `kind`, else raise TypeError naming it."""
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}")
+    return value
+
+
+def function(name, value, signature):
+    """Return `value` if it can be called, else raise TypeError naming it."""
+    if not callable(value) or isinstance(value, type):
+        raise TypeError(f"{name} must be a function, {signature}, got {short(value)}")
     return value
 
 

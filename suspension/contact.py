@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.optimize import brentq
 
+from suspension import _checks
 from suspension.critical import critical_speeds, critical_stiffness, sensitivity
 from suspension.exact import Crossing
 from suspension.forces import WHEEL, Loss, first_loss, normal_forces
@@ -41,7 +42,7 @@ def exact_loss(robot, bump, v, tfinal=None):
     >>> loss.wheel, round(loss.t, 6)
     (2, 0.056455)
     """
-    crossing = Crossing(robot, bump, v)
+    crossing = Crossing(robot, bump, _checks.positive("v", v))
     t, N = turning_points(crossing, tfinal)
     loss = first_loss(t, N)
     if loss is None or loss.t == 0:

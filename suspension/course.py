@@ -42,7 +42,11 @@ def make_gfunc(robot, road):
     and gives ``w' = A w + F(t)``, shape (4,), and the two normal forces in N.
     """
 
+    _checks.instance("robot", robot, Robot)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
+
     def gfunc(w, t, v):
+        t = _checks.number("t", t)
         u = road_input(robot, road, v, t)
         N1, N2 = robot.C @ w + robot.D @ u
         wdot = robot.A @ w + robot.B @ u + robot.e
@@ -53,7 +57,14 @@ def make_gfunc(robot, road):
 
 def make_forcing(robot, road, v):
     """Return ``F(t)``, shape (4,), of ``w' = A w + F(t)`` at speed `v` in m/s."""
-    return lambda t: robot.B @ road_input(robot, road, v, t) + robot.e
+    _checks.instance("robot", robot, Robot)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
+    v = _checks.number("v", v)
+
+    def F(t):
+        return robot.B @ road_input(robot, road, v, t) + robot.e
+
+    return F
 
 
 def gfunc_linear(w, t, v):
@@ -101,11 +112,12 @@ def RK4(gfunc_handle, w0, deltat, tfinal, v):
 
     def g(w, t):
         output = gfunc_handle(w, t, v)
-        return output[0] if isinstance(output, tuple) else output
+        wdot = output[0] if isinstance(output, tuple) else output
+        return _checks.array("gfunc_handle's wdot", wdot, w0.shape, finite=False)
 
+    _checks.function("gfunc_handle", gfunc_handle, "gfunc_handle(w, t, v) -> wdot")
     w0 = _checks.array("w0", w0, (None,))
-    deltat = _checks.positive("deltat", deltat)
-    T = deltat * np.arange(steps(tfinal, deltat) + 1)
+    T = deltat * np.arange(steps(tfinal, deltat, "deltat") + 1)
     W = np.empty((len(w0), len(T)))
     W[:, 0] = w0
     for j, t in enumerate(T[:-1]):
@@ -137,15 +149,19 @@ def crank_nicolson(A, F, w0, deltat, tfinal):
     W : ndarray, shape (n, J+1)
     T : ndarray, shape (J+1,)
     """
+
+    def forcing(t):
+        return _checks.array("F", F(t), w0.shape)
+
+    _checks.function("F", F, "F(t), of the shape of w0")
     w0 = _checks.array("w0", w0, (None,))
-    deltat = _checks.positive("deltat", deltat)
+    T = deltat * np.arange(steps(tfinal, deltat, "deltat") + 1)
     A = _checks.array("A", A, (len(w0), len(w0)))
     half, identity = deltat / 2 * A, np.eye(len(A))
     lu = lu_factor(identity - half)
-    T = deltat * np.arange(steps(tfinal, deltat) + 1)
     W = np.empty((len(A), len(T)))
     W[:, 0] = w0
     for j, t in enumerate(T[:-1]):
-        b = (identity + half) @ W[:, j] + deltat / 2 * (F(t) + F(t + deltat))
+        b = (identity + half) @ W[:, j] + deltat / 2 * (forcing(t) + forcing(t + deltat))
         W[:, j + 1] = lu_solve(lu, b, check_finite=False)
     return W, T

@@ -3,14 +3,18 @@
 from dataclasses import fields, replace
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.optimize import brentq
 
 from suspension import _checks
-from suspension.least_force import margin
+from suspension.least_force import margin, sample_count
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 
 __all__ = ["critical_speeds", "critical_stiffness", "sensitivity", "zeros"]
 
 RESOLUTION = 1e-5  # two critical values closer to each other than this (relative) may be missed
+MAX_SAMPLES = 4 * 10**6  # of the forces, in all margins on the first grid: some ten seconds
 
 
 def critical_speeds(robot, bump, vmin, vmax):
@@ -26,7 +30,13 @@ def critical_speeds(robot, bump, vmin, vmax):
     Returns
     -------
     v : ndarray, shape (n,)
-        In order, m/s, to roundoff.
+        In order, m/s, to roundoff. Two that differ by less than 1e-5 of their size may be missed.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the search would need more than 4 million samples
+        of the forces; the number is told.
 
     Examples
     --------
@@ -35,8 +45,11 @@ def critical_speeds(robot, bump, vmin, vmax):
     >>> critical_speeds(Robot(800, 800), GaussianBump(), 0.1, 30).round(4)
     array([ 0.4367,  7.9457, 20.4232])
     """
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
     vmin, vmax = _range("vmin", vmin, "vmax", vmax)
-    x = _logarithmic(robot, bump, vmin, vmax)
+    cost = np.mean([sample_count(robot, v) for v in np.geomspace(vmin, vmax)])
+    x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost)
     return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x)), x))
 
 
@@ -55,7 +68,12 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
     Returns
     -------
     k : ndarray, shape (n,)
-        In order, N/m, to roundoff.
+        In order, N/m, to roundoff. Two that differ by less than 1e-5 of their size may be missed.
+
+    Raises
+    ------
+    ValueError
+        As `critical_speeds` does.
 
     Examples
     --------
@@ -64,13 +82,17 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
     >>> critical_stiffness(Robot(800, 800), GaussianBump(), 5, 200, 2000).round(2)
     array([572.83])
     """
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
+    v = _checks.positive("v", v)
     kmin, kmax = _range("kmin", kmin, "kmax", kmax)
 
-    def at(x):
-        k1 = np.exp(x)
-        return margin(replace(robot, k1=k1, k2=k1 * robot.k2 / robot.k1), bump, v)
+    def with_stiffness(k1):
+        return replace(robot, k1=k1, k2=k1 * (robot.k2 / robot.k1))
 
-    return np.exp(zeros(at, _logarithmic(robot, bump, kmin, kmax)))
+    cost = np.mean([sample_count(with_stiffness(k), v) for k in np.geomspace(kmin, kmax)])
+    x = _logarithmic(robot, bump, "kmin and kmax", kmin, kmax, cost)
+    return np.exp(zeros(lambda x: margin(with_stiffness(np.exp(x)), bump, v), x))
 
 
 def sensitivity(robot, bump, v, *names):
@@ -92,15 +114,18 @@ def sensitivity(robot, bump, v, *names):
     sensitivity : float
         In N: a hundredth of it is the change that one percent makes.
     """
-    step, allowed = 1e-5, ["v", *(field.name for field in fields(robot))]
+    _checks.instance("robot", robot, Robot)
+    allowed = ["v", *(field.name for field in fields(robot) if field.init)]
     for name in names:
         _checks.one_of("names", name, allowed)
 
-    def at(factor):
+    def scaled_margin(factor):
         values = {name: factor * getattr(robot, name) for name in names if name != "v"}
-        return margin(replace(robot, **values), bump, v * factor if "v" in names else v)
+        speed = factor * v if "v" in names else v
+        return margin(replace(robot, **values), bump, speed)
 
-    return (at(1 + step) - at(1 - step)) / (2 * step)
+    step = 1e-5
+    return (scaled_margin(1 + step) - scaled_margin(1 - step)) / (2 * step)
 
 
 def zeros(f, x):
@@ -125,28 +150,43 @@ def zeros(f, x):
     x = _checks.array("x", x, (None,))
     y = np.array([f(s) for s in x])
     while True:
-        dx, dy = np.diff(x), np.abs(np.diff(y))
-        slope = np.pad(dy / dx, 2, mode="edge")
-        slope = np.max([slope[i : i + len(dx)] for i in range(5)], axis=0)
+        dx = np.diff(x)
+        slope = _largest_nearby(np.abs(np.diff(y)) / dx)
         unsure = (np.abs(y[:-1]) + np.abs(y[1:]) < 2 * slope * dx) & (dx > RESOLUTION)
         if not unsure.any():
             break
-        new = (x[:-1] + x[1:])[unsure] / 2
-        at = np.nonzero(unsure)[0] + 1
-        x, y = np.insert(x, at, new), np.insert(y, at, [f(s) for s in new])
-    inside = [
-        brentq(f, x[j], x[j + 1], xtol=1e-14, rtol=1e-15) for j in np.nonzero(y[:-1] * y[1:] < 0)[0]
-    ]
+        middle = (x[:-1] + x[1:])[unsure] / 2
+        place = np.flatnonzero(unsure) + 1
+        x = np.insert(x, place, middle)
+        y = np.insert(y, place, [f(s) for s in middle])
+    changes = np.flatnonzero(y[:-1] * y[1:] < 0)
+    inside = [brentq(f, x[j], x[j + 1], xtol=1e-14, rtol=1e-15) for j in changes]
     return np.sort(np.concatenate([x[y == 0], inside]))
 
 
-def _logarithmic(robot, bump, low, high):
-    # The margin ripples with the phase omega (L1 + L2) / v that a mode gains between the wheels.
-    # A bump that lasts for more than a swing, omega sigma / v > 6, leaves the mode at rest. So
-    # there is at most about one ripple in a factor e for each sigma of the wheelbase.
+def _largest_nearby(slope):
+    """The largest of each value and its two neighbours on either side."""
+    padded = np.pad(slope, 2, mode="edge")
+    return sliding_window_view(padded, 5).max(axis=1)
+
+
+def _logarithmic(robot, bump, names, low, high, cost):
+    """A grid in ln v or ln k, dense enough for every ripple; `cost` is that of one value in it.
+
+    The margin ripples with the phase omega (L1 + L2) / v that a mode gains between the wheels. A
+    bump that lasts for more than a swing, omega sigma / v > 6, leaves the mode at rest. So there
+    is at most about one ripple in a factor e for each sigma of the wheelbase.
+    """
     ripples = 1 + (robot.L1 + robot.L2) / bump.sigma
-    samples = (20 + 10 * ripples) * np.log(high / low)
-    return np.linspace(np.log(low), np.log(high), 2 + int(samples))
+    count = (20 + 10 * ripples) * np.log(high / low)
+    needed = count * cost
+    if not needed <= MAX_SAMPLES:
+        raise ValueError(
+            f"{names} must be so close to each other, and {names.split()[0]} so far from zero, "
+            f"that at most {MAX_SAMPLES:.0e} samples of the forces are needed, "
+            f"got {low:g} and {high:g} with sigma={bump.sigma:g}: {needed:.2g}"
+        )
+    return np.linspace(np.log(low), np.log(high), 2 + int(count))
 
 
 def _range(low_name, low, high_name, high):

@@ -133,6 +133,7 @@ class Crossing:
         ``dxi/dt = |v| / (sqrt(2) sigma)``, 1/s.
     """
 
+    @np.errstate(over="ignore", invalid="ignore")  # extremes show in the motion, and in `roundoff`
     def __init__(self, robot, bump, v, w0=None):
         _checks.instance("robot", robot, Robot)
         _checks.instance("bump", bump, GaussianBump)

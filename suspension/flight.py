@@ -2,11 +2,11 @@
 
 Between two switches the robot is linear, with one or both forces missing: a leg, smooth, for
 SciPy's DOP853. The zeros of Eq. 5 tell where it ends. With the compression ``p = h - Y`` of a
-spring and Eq. 5 written ``E = k p + c p'``, a wheel lifts off where E turns negative, and while
-E > 0 its height above the ground, times ``exp(k t / c)``, only falls: it lands at most once.
+spring and Eq. 5 written ``f = k p + c p'``, a wheel lifts off where f turns negative, and while
+f > 0 its height above the ground, times ``exp(k t / c)``, only falls: it lands at most once.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 
 from suspension import _checks
 from suspension.road import road_input
+from suspension.robot import Robot
 
 __all__ = ["Event", "Flight", "fly", "make_flight_gfunc"]
 
@@ -24,7 +25,8 @@ TOLERANCES = {"rtol": 1e-12, "atol": 1e-13}
 DEGREE = 16  # of the polynomials whose roots are the zeros of Eq. 5
 SHORTEST = 1e-11  # s; what lasts less is not told from roundoff
 CHATTER = 100  # switches within the robot's shortest time constant
-MAX_STEPS = 10**5
+MAX_STEPS = 10**4  # of the integrator: some ten seconds
+MAX_SAMPLES = 10**6
 
 
 class Event(NamedTuple):
@@ -71,30 +73,43 @@ class Flight:
         return sum((end - start) * ~np.array(pressing) for start, end, pressing in self.legs)
 
     def settled(self, robot, fraction=0.05):
-        """Time in s from which both forces stay within `fraction` of those at rest, or nan."""
-        rest = (robot.C @ robot.equilibrium)[:, None]
-        away = np.flatnonzero((np.abs(self.N - rest) > fraction * rest).any(axis=0))
-        return float(np.append(self.T, np.nan)[away[-1] + 1]) if away.size else 0.0
+        """Time in s from which both forces stay within `fraction` of those at rest.
+
+        nan if they have not settled before the run ends.
+        """
+        at_rest = (robot.C @ robot.equilibrium)[:, None]
+        away = np.flatnonzero((np.abs(self.N - at_rest) > fraction * at_rest).any(axis=0))
+        if not away.size:
+            return 0.0
+        if away[-1] == len(self.T) - 1:
+            return np.nan
+        return float(self.T[away[-1] + 1])
+
+    def __repr__(self):
+        return (
+            f"<Flight: v = {self.v:g} m/s to t = {self.T[-1]:g} s, {len(self.events)} events, "
+            f"airtime {self.airtime[0]:.3g} s rear, {self.airtime[1]:.3g} s front>"
+        )
 
 
 def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, samples=2001):
     """Drive with normal forces that switch off and on, as the problem's footnote 1 describes.
 
     With ``p = h - Y`` for the compression of the spring above a wheel on the ground, Eq. 5 is
-    ``E = k p + c p'``. A wheel that presses has ``N = E`` and lifts off where E falls below 0. A
-    wheel that does not has ``N = 0`` and lands as soon as ``p >= x`` and ``E > 0``, where x is
+    ``f = k p + c p'``. A wheel that presses has ``N = f`` and lifts off where f falls below 0. A
+    wheel that does not has ``N = 0`` and lands as soon as ``p >= x`` and ``f > 0``, where x is
     the compression of the spring above the free wheel, whose height above the ground is ``x - p``:
 
     - ``"follows"`` (footnote 1): ``x = 0``, a free wheel keeps to the fully extended spring, so
-      ``N = max(0, E)`` while ``Y <= h`` and 0 above. At lift-off the spring is still compressed
+      ``N = max(0, f)`` while ``Y <= h`` and 0 above. At lift-off the spring is still compressed
       and the damper about to pull: the force ends without a jump. It comes back without one if
-      E turns positive before the spring has extended; else the wheel rises and comes down at
+      f turns positive before the spring has extended; else the wheel rises and comes down at
       ``p = 0`` with the jump ``c p'``.
     - ``"relaxes"``: a massless wheel bears no force, ``k x + c x' = 0``, so x decays from p at
       lift-off with the time constant c / k. The landing force is c times the speed at which
       wheel and ground meet. With ``c = 0`` both models are the same.
 
-    At t = 0 a wheel presses if ``p >= 0`` and ``E > 0``; else it hangs, with ``x = max(0, p)``.
+    At t = 0 a wheel presses if ``p >= 0`` and ``f > 0``; else it hangs, with ``x = max(0, p)``.
 
     Parameters
     ----------
@@ -119,7 +134,8 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
     Raises
     ------
     ValueError
-        If an argument is out of its range, or asks for more than 10^5 steps.
+        If an argument is out of its range, asks for more than 10^4 steps of the integrator, or is
+        so fast that the road's smallest feature lasts less than a nanosecond.
     RuntimeError
         If the robot chatters (100 switches in its shortest time constant) or the road is rough.
 
@@ -131,47 +147,83 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
     >>> [(e.wheel, e.kind, round(e.t, 4)) for e in flight.events]
     [(2, 'lift-off', 0.0565), (1, 'lift-off', 0.0978), (2, 'landing', 0.1048)]
     """
+    _checks.instance("robot", robot, Robot)
     v, tfinal = _checks.number("v", v), _checks.positive("tfinal", tfinal)
     w = robot.equilibrium if w0 is None else _checks.array("w0", w0, (4,))
     _checks.one_of("wheel", wheel, ("follows", "relaxes"))
+    samples = _checks.whole("samples", samples, 2)
+    if samples > MAX_SAMPLES:
+        raise ValueError(f"samples must be at most {MAX_SAMPLES}, got {samples}")
     resolution = getattr(road, "sigma", 1e-3) if resolution is None else resolution
-    max_step = 2 * _checks.positive("resolution", resolution) / abs(v) if v else np.inf
-    samples = _checks.number("samples", samples, "an int >= 2", lambda n: n >= 2 and n % 1 == 0)
-    fastest = np.abs(robot.eigenvalues).max()
-    if (steps := tfinal * (1 / max_step + fastest / 6)) > MAX_STEPS:
-        raise ValueError(f"tfinal must take at most {MAX_STEPS} steps, got {tfinal!r}: {steps:.2g}")
+    max_step = _longest_step(robot, v, tfinal, _checks.positive("resolution", resolution))
 
-    contact, grid = _contact(robot, road), np.linspace(0.0, tfinal, int(samples))
-    k, c = -robot.C[:, :2].T
-    relaxes = (c > 0) & (wheel == "relaxes")
-    rate = k / np.where(relaxes, c, np.inf)
+    springs = _spring_forces(robot, road)
+    grid = np.linspace(0.0, tfinal, samples)
+    relaxes = (robot.c > 0) & (wheel == "relaxes")
+    rate = robot.k / np.where(relaxes, robot.c, np.inf)
     noise = TOLERANCES["atol"] * np.abs(robot.C).max(axis=1)  # forces the integrator cannot tell
-    p, E = contact(w, 0.0, v)
-    pressing, t0, x0 = (p >= 0) & (E > 0), np.zeros(2), np.where(relaxes & (p > 0), p, 0)
+    p, f = springs(w, 0.0, v)
+    pressing = (p >= 0) & (f > 0)
+    lifted = np.zeros(
+        2
+    )  # when a free wheel last left the ground, and its spring's compression then
+    extension = np.where(relaxes & (p > 0), p, 0.0)
 
-    def state(motion, t):
-        p, E = contact(motion(t), t, v)
-        return (x0 * np.exp(-rate * np.subtract.outer(t, t0))).T - p, E
+    def gaps_and_forces(motion, t):
+        p, f = springs(motion(t), t, v)
+        free = extension * np.exp(-rate * np.subtract.outer(t, lifted))
+        return free.T - p, f
 
-    history, legs, events, t = [], [], [], 0.0
+    history, legs, events = [], [], []
+    t = 0.0
     while t < tfinal:
-        start, gfunc = t, make_flight_gfunc(robot, road, pressing)
-        t, motion, switched = _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step)
+        start = t
+        gfunc = make_flight_gfunc(robot, road, pressing)
+        t, motion, switched = _leg(
+            gfunc, v, gaps_and_forces, noise, pressing, w, start, tfinal, max_step
+        )
         if motion is not None:
             w = motion(t)
             T = np.concatenate([[start], grid[(grid > start) & (grid < t)], [t]])
-            on, (gaps, N) = pressing[:, None], np.maximum(state(motion, T), 0)
-            history.append((T, motion(T), np.where(on, N, 0), np.where(on, 0, gaps)))
+            gaps, f = gaps_and_forces(motion, T)
+            N = np.where(pressing[:, None], np.maximum(f, 0), 0)
+            gaps = np.where(pressing[:, None], 0, np.maximum(gaps, 0))
+            history.append((T, motion(T), N, gaps))
             legs.append((start, t, tuple(pressing.tolist())))
-        p, E = contact(w, t, v)
+        p, f = springs(w, t, v)
         pressing = pressing ^ switched
-        t0, x0 = np.where(switched, t, t0), np.where(switched, p * relaxes, x0)
+        lifted = np.where(switched, t, lifted)
+        extension = np.where(switched, p * relaxes, extension)
         for i in np.flatnonzero(switched):
-            kind, force = ("landing", float(E[i])) if pressing[i] else ("lift-off", 0.0)
+            kind, force = ("landing", float(f[i])) if pressing[i] else ("lift-off", 0.0)
             events.append(Event(int(i) + 1, kind, t, v * t, force))
-        if len(events) > CHATTER and t - events[-CHATTER - 1].t < 1 / fastest:
-            raise RuntimeError(f"the robot chatters: {CHATTER} switches just before t = {t:g} s")
-    return Flight(*map(np.hstack, zip(*history, strict=True)), tuple(events), tuple(legs), v)
+        if len(events) > CHATTER:
+            shortest = 1 / np.abs(robot.eigenvalues).max()
+            if t - events[-CHATTER - 1].t < shortest:
+                raise RuntimeError(
+                    f"the robot chatters: {CHATTER} switches just before t = {t:g} s"
+                )
+    T, W, N, gaps = map(np.hstack, zip(*history, strict=True))
+    return Flight(T, W, N, gaps, tuple(events), tuple(legs), v)
+
+
+def _longest_step(robot, v, tfinal, resolution):
+    """The longest step that sees every feature of the road, s, if that many can be taken."""
+    if v == 0:
+        return np.inf
+    longest = 2 * resolution / abs(v)
+    if longest < 100 * SHORTEST:
+        raise ValueError(
+            "v must be so low, or resolution so large, that a feature of the road lasts a "
+            f"nanosecond, got v={v:g}, resolution={resolution:g}"
+        )
+    steps = tfinal * (1 / longest + np.abs(robot.eigenvalues).max() / 6)
+    if steps > MAX_STEPS:
+        raise ValueError(
+            f"tfinal must take at most {MAX_STEPS} steps, got tfinal={tfinal:g} at v={v:g}: "
+            f"{steps:.2g} steps"
+        )
+    return longest
 
 
 def make_flight_gfunc(robot, road, pressing=None, start=0.0):
@@ -180,24 +232,30 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0):
     The forces are those of "follows", told from the state alone, for a method that looks for no
     switch. With `pressing` they are those of one leg of a `Flight`, and t counts from its `start`.
     """
-    S, P, e, contact = robot.S, robot.P, robot.e, _contact(robot, road)
+    springs = _spring_forces(robot, road)
 
     def gfunc(w, t, v):
-        p, E = contact(w, start + t, v)
-        N = np.where((p >= 0) & (E > 0) if pressing is None else pressing, E, 0.0)
-        return S @ w + P @ N + e, *N
+        p, f = springs(w, start + t, v)
+        N = np.where((p >= 0) & (f > 0) if pressing is None else pressing, f, 0.0)
+        return robot.S @ w + robot.P @ N + robot.e, *N
 
     return gfunc
 
 
-def _contact(robot, road):
-    """Return ``f(w, t, v)``: compressions, m, and Eq. 5, N, stacked, shape (2, 2, ...)."""
-    both = replace(robot, k1=1, k2=1, c1=0, c2=0), robot  # Eq. 5 of unit springs alone is p
-    C, D = np.vstack([r.C for r in both]), np.vstack([r.D for r in both])
-    return lambda w, t, v: (C @ w + D @ road_input(robot, road, v, t)).reshape(2, 2, *np.shape(t))
+def _spring_forces(robot, road):
+    """Return ``springs(w, t, v) -> p, f``: compressions, m, and Eq. 5, N, shape (2, n) or (2,)."""
+    still, one = np.zeros(2), np.ones(2)
+    C = np.vstack([-np.column_stack([one, still, robot.arms, still]), robot.C])
+    D = np.vstack([np.eye(2, 4), robot.D])
+
+    def springs(w, t, v):
+        both = C @ w + D @ road_input(robot, road, v, t)
+        return both[:2], both[2:]
+
+    return springs
 
 
-def _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step):
+def _leg(gfunc, v, gaps_and_forces, noise, pressing, w, t, tfinal, max_step):
     """Integrate to the next switch: when, the motion until then (None if at once), which wheels."""
     solver = DOP853(lambda t, w: gfunc(w, t, v)[0], t, w, tfinal, max_step=max_step, **TOLERANCES)
     times, pieces = [t], []
@@ -208,7 +266,13 @@ def _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step):
         if solver.status == "failed" or crawls:
             break
         piece = solver.dense_output()
-        end, switched = _first_switch(state, noise, piece, pressing, solver.t_old, solver.t)
+        end, switched = _first_switch(
+            lambda t, piece=piece: gaps_and_forces(piece, t),
+            noise,
+            pressing,
+            solver.t_old,
+            solver.t,
+        )
         if end > times[-1]:
             times.append(end)
             pieces.append(piece)
@@ -217,19 +281,21 @@ def _leg(gfunc, v, state, noise, pressing, w, t, tfinal, max_step):
     raise RuntimeError(f"road is too rough to integrate at t = {solver.t:g} s")
 
 
-def _first_switch(state, noise, motion, pressing, a, b):
+def _first_switch(gaps_and_forces, noise, pressing, a, b):
     """Return the first switch in [a, b], b if none, and which wheels switch then, bool (2,)."""
-    edges = np.array([a, *_zeros(lambda t: state(motion, t)[1], a, b), b])
+    edges = np.array([a, *_zeros(lambda t: gaps_and_forces(t)[1], a, b), b])
     edges = edges[np.diff(edges, prepend=-np.inf) > SHORTEST]
     for left, right in pairwise(edges.tolist()):
-        push = state(motion, (left + right) / 2)[1] > np.where(pressing, -noise, noise)
-        if (pressing & ~push).any():
-            return left, pressing & ~push
-        lands = ~pressing & push & (state(motion, right)[0] <= 0)
+        pushes = gaps_and_forces((left + right) / 2)[1] > np.where(pressing, -noise, noise)
+        lifts = pressing & ~pushes
+        if lifts.any():
+            return left, lifts
+        lands = ~pressing & pushes & (gaps_and_forces(right)[0] <= 0)
         if lands.any():
+            high = gaps_and_forces(left)[0] > 0
             times = np.where(lands, left, np.inf)
-            for i in np.flatnonzero(lands & (state(motion, left)[0] > 0)):
-                times[i] = brentq(lambda t, i: state(motion, t)[0][i], left, right, (i,), 1e-14)
+            for i in np.flatnonzero(lands & high):
+                times[i] = brentq(lambda t, i: gaps_and_forces(t)[0][i], left, right, (i,), 1e-14)
             return float(times.min()), times < times.min() + SHORTEST
     return b, np.zeros(2, dtype=bool)
 
@@ -243,8 +309,13 @@ def _zeros(f, a, b, halvings=5):
     middle, half = (a + b) / 2, (b - a) / 2
     series = chebyshev.chebinterpolate(lambda s: f(middle + half * s).T, DEGREE).T
     size = np.abs(series)
-    if halvings and (size[:, -2:].max(axis=1) > 1e-10 * size.max(axis=1)).any():
+    converged = (size[:, -2:].max(axis=1) <= 1e-10 * size.max(axis=1)).all()
+    if halvings and not converged:
         return _zeros(f, a, middle, halvings - 1) + _zeros(f, middle, b, halvings - 1)
-    roots = [chebyshev.chebroots(c) for c in series if np.abs(c[1:]).sum() >= abs(c[0])]
-    z = np.concatenate([[], *roots])
-    return sorted(middle + half * z.real[(np.abs(z.imag) < 1e-6) & (np.abs(z.real) < 1)])
+    zeros = []
+    for coefficients in series:
+        if np.abs(coefficients[1:]).sum() < abs(coefficients[0]):
+            continue  # too far from zero to reach it
+        z = chebyshev.chebroots(coefficients)
+        zeros += (middle + half * z.real[(np.abs(z.imag) < 1e-6) & (np.abs(z.real) < 1)]).tolist()
+    return sorted(zeros)

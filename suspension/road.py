@@ -1,6 +1,7 @@
 """The ground: a road is any callable ``road(x) -> (H, dHdx)``, arrays in, arrays out."""
 
 from dataclasses import dataclass
+from reprlib import repr as short
 
 import numpy as np
 
@@ -77,7 +78,7 @@ def road_input(robot, road, v, t):
     ValueError
         If the road returns another shape than it was given, or a value that is not finite.
     """
-    X = v * _checks.array("t", t)
+    X = _checks.number("v", v) * _checks.array("t", t)
     H, dHdx = under_wheels(robot, road, X)
     return np.concatenate([H, v * dHdx])
 
@@ -105,13 +106,11 @@ def under_wheels(robot, road, X):
 
 def profile(road, x):
     """Height and slope of a road at `x`, checked: finite, and of the shape of `x`."""
-    if not callable(road):
-        raise TypeError(f"road must be a callable, road(x) -> (H, dHdx), got {road!r}")
-    value = road(x)
+    value = _checks.function("road", road, "road(x) -> (H, dHdx)")(x)
     try:
         H, dHdx = value
     except (TypeError, ValueError):
-        raise ValueError(f"road must return two arrays, H and dHdx, got {value!r}") from None
+        raise ValueError(f"road must return two arrays, H and dHdx, got {short(value)}") from None
     return _on_grid("H", H, x), _on_grid("dHdx", dHdx, x)
 
 

@@ -14,6 +14,7 @@ from suspension import _checks
 __all__ = ["BACKWARD_EULER", "CRANK_NICOLSON", "EULER", "RK4", "Scheme"]
 
 ROUNDOFF = 64 * np.finfo(float).eps
+MAX_POINTS = 10**5  # of a boundary, some ten seconds
 TOLERANCE = 1e-12  # what eigenvalue solvers and printed tableaux leave
 
 
@@ -53,6 +54,7 @@ class Scheme:
     c: np.ndarray
 
     def __post_init__(self):
+        _checks.instance("name", self.name, str)
         b = _checks.array("b", self.b, (None,))
         a = _checks.array("a", self.a, (len(b), len(b)))
         c = _checks.array("c", self.c, (len(b),))
@@ -60,11 +62,24 @@ class Scheme:
             raise ValueError(f"b must sum to 1, got {b.sum()}")
         if np.abs(a.sum(axis=1) - c).max() > TOLERANCE:
             raise ValueError(f"c must be the row sums of a, {a.sum(axis=1)}, got {c}")
-        _checks.whole("order", self.order, 1)
+        object.__setattr__(self, "order", _checks.whole("order", self.order, 1))
         for name, value in (("a", a), ("b", b), ("c", c)):
             value = value.copy()
             value.setflags(write=False)
             object.__setattr__(self, name, value)
+
+    @property
+    def _content(self):
+        return self.name, self.order, *(tuple(x.ravel().tolist()) for x in (self.a, self.b, self.c))
+
+    def __eq__(self, other):
+        return isinstance(other, Scheme) and self._content == other._content
+
+    def __hash__(self):
+        return hash(self._content)
+
+    def __reduce__(self):  # a copy is checked and read-only again
+        return Scheme, (self.name, self.order, self.a, self.b, self.c)
 
     def stability_function(self, z):
         """Growth per step of ``w' = lambda w``: ``R(z) = 1 + z b^T (I - z a)^-1 1``.
@@ -80,7 +95,7 @@ class Scheme:
             Infinite at a pole, and where the powers of z overflow.
         """
         P, Q = self.polynomials
-        z = np.asarray(z, dtype=complex)
+        z = _checks.array("z", z, dtype=complex, finite=False)
         with np.errstate(all="ignore"):
             R = P(z) / Q(z)
         return np.where(np.isfinite(R), R, np.inf)
@@ -115,7 +130,10 @@ class Scheme:
         s, n = len(self.b), A.shape[-1]
         # All stages at once: (I - dt a kron A)^T G^T = dt (b^T kron I)^T.
         stages = np.eye(s * n) - dt * np.kron(self.a, A)
-        G = np.linalg.solve(stages.swapaxes(-1, -2), dt * np.kron(self.b, np.eye(n)).T)
+        try:
+            G = np.linalg.solve(stages.swapaxes(-1, -2), dt * np.kron(self.b, np.eye(n)).T)
+        except np.linalg.LinAlgError:
+            raise ValueError(f"dt must not make {self.name}'s step unsolvable, got {dt}") from None
         G = np.moveaxis(G.reshape(*A.shape[:-2], s, n, n), -3, 0).swapaxes(-1, -2)
         return np.eye(n) + G.sum(axis=0) @ A, G
 
@@ -167,7 +185,7 @@ class Scheme:
         Parameters
         ----------
         n : int
-            Number of points, >= 4.
+            Number of points, 4 to 100,000.
 
         Returns
         -------
@@ -175,6 +193,8 @@ class Scheme:
             Real and imaginary part of z, in order along the curve.
         """
         n = _checks.whole("n", n, 4)
+        if n > MAX_POINTS:
+            raise ValueError(f"n must be at most {MAX_POINTS}, got {n}")
         half = (n + 1) // 2
         degree = max(p.degree() for p in self.polynomials)
         # The half curve takes pi for every root of R that it goes around: all of them, unless R

@@ -108,31 +108,41 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     v, dt = _checks.number("v", v), _checks.positive("dt", dt)
     equilibrium = robot.equilibrium
     w0 = equilibrium if w0 is None else _checks.array("w0", w0, (4,))
-    J = steps(tfinal, dt)
-    T = dt * np.arange(J + 1)
-    W, N = np.empty((J + 1, 4)), np.empty((2, J + 1))
+    T = dt * np.arange(steps(tfinal, dt) + 1)
+    with np.errstate(over="ignore", invalid="ignore"):  # an unstable run may overflow
+        W, N = _deviation(robot, road, v, T, dt, scheme, w0 - equilibrium)
+        W += equilibrium[:, None]
+        N += (robot.C @ equilibrium)[:, None]
+    W[:, 0] = w0
+    return Trajectory(T, W, N, v, dt, scheme)
+
+
+def _deviation(robot, road, v, T, dt, scheme, d0):
+    """States and forces as deviations from equilibrium, where the weight drops out.
+
+    So every scheme stays in equilibrium exactly. Starts from `d0`; shapes (4, J+1) and (2, J+1).
+    """
+    W, N = np.empty((len(T), 4)), np.empty((2, len(T)))  # of W a step's four numbers side by side
+    W[0] = d0
+    N[:, 0] = robot.C @ d0 + _road_force(robot, road, v, T[:1])[:, 0]
     R, stages, band = _step(robot, scheme, dt)
-    W[0] = w0 - equilibrium  # of the deviation, first: the weight drops out
-    for start in range(0, J, CHUNK):
+    for start in range(0, len(T) - 1, CHUNK):
         t = T[start : start + CHUNK + 1]
-        part = slice(start, start + len(t))
-        ends = _road_force(robot, road, v, t)
+        at_ends = _road_force(robot, road, v, t)
         b = np.zeros((len(t) - 1, 4))
         for c, GP in stages:
             if c == 0:
-                f = ends[:, :-1]
+                f = at_ends[:, :-1]
             elif c == 1:
-                f = ends[:, 1:]
+                f = at_ends[:, 1:]
             else:
                 f = _road_force(robot, road, v, t[:-1] + c * dt)
             b += f.T @ GP.T
         b[0] += R @ W[start]
-        W[part][1:] = _forward_substitution(band, b)
-        N[:, part] = robot.C @ W[part].T + ends
-    W += equilibrium
-    W[0] = w0
-    N += (robot.C @ equilibrium)[:, None]
-    return Trajectory(T, W.T, N, v, dt, scheme)
+        later = slice(start + 1, start + len(t))
+        W[later] = _forward_substitution(band, b)
+        N[:, later] = robot.C @ W[later].T + at_ends[:, 1:]
+    return W.T, N
 
 
 @lru_cache(maxsize=8)
@@ -162,24 +172,24 @@ def _band(R, steps):
 
 
 def _forward_substitution(band, b):
-    """Solve ``w_{n+1} - R w_n = b_n`` for n = 0, 1, ..; `b` and the result have shape (steps, 4)."""
+    """Solve ``w_{n+1} - R w_n = b_n`` for n = 0, 1, ...; all of shape (steps, 4)."""
     w, _ = dtbtrs(band[:, : b.size], b.ravel(), uplo="L", diag="U", overwrite_b=True)
     return w.reshape(b.shape)
 
 
-def steps(tfinal, dt):
+def steps(tfinal, dt, name="dt"):
     """Number of steps J from 0 to `tfinal`: ``ceil(tfinal / dt)``, forgiving roundoff.
 
     >>> steps(0.3, 0.1), steps(0.3001, 0.1)
     (3, 4)
     """
-    tfinal, dt = _checks.positive("tfinal", tfinal), _checks.positive("dt", dt)
+    tfinal, dt = _checks.positive("tfinal", tfinal), _checks.positive(name, dt)
     J = tfinal / dt
     if J < MAX_STEPS + 1:
         J = round(J) if abs(J - round(J)) <= 1e-12 * J else np.ceil(J)
     if J > MAX_STEPS:
         raise ValueError(
-            f"dt must give at most {MAX_STEPS:.0e} steps, got dt={dt!r}, "
+            f"{name} must give at most {MAX_STEPS:.0e} steps, got {name}={dt!r}, "
             f"tfinal={tfinal!r}: {J:.3g} steps"
         )
     return max(int(J), 1)

@@ -1,17 +1,20 @@
-"""Many robots at many speeds over one road: the smallest normal forces of all the runs."""
+"""Many robots at many speeds over one road: the smallest normal forces of all the runs.
+
+One loop over the steps of all cases at once, with the case as the last axis of every array.
+"""
 
 import numpy as np
 
 from suspension import _checks
-from suspension.recurrence import BLOCK, Discrete, abscissae
 from suspension.road import under_wheels
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
-from suspension.simulation import MAX_STEPS
 
 __all__ = ["sweep"]
 
-BATCH = 2**17  # steps of all cases that are worked on at a time
+BATCH = 1024  # cases worked on at a time, whose matrices stay in the processor's cache
+MAX_STEPS = 10**5  # of a run, and of all runs together: some ten seconds each
+MAX_WORK = 10**8
 
 
 def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
@@ -44,7 +47,8 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
     Raises
     ------
     ValueError
-        If an argument is out of its range, or `robots` and `v` cannot be broadcast.
+        If an argument is out of its range, `robots` and `v` cannot be broadcast, or a run
+        would take more than 10^5 steps, or all together more than 10^8.
 
     Notes
     -----
@@ -66,42 +70,63 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
         raise ValueError(f"v must be > 0 everywhere, got {v[~(v > 0)].flat[0]}")
     steps, distance = _checks.whole("steps", steps, 1), _checks.positive("distance", distance)
     if steps > MAX_STEPS:
-        raise ValueError(f"steps must be at most {MAX_STEPS:.0e}, got {steps}")
+        raise ValueError(f"steps must be at most {MAX_STEPS}, got {steps}")
     try:
         robots, v = np.broadcast_arrays(robots, v)
     except ValueError:
         raise ValueError(
             f"robots must have a shape that fits v's, {v.shape}, got {robots.shape}"
         ) from None
-    N, robots = np.empty((v.size, 2)), robots.ravel()
-    bases = np.array([(robot.L1, robot.L2) for robot in robots]).reshape(-1, 2)
-    bases, base = np.unique(bases, axis=0, return_inverse=True)
-    dX, size = distance / steps, max(1, BATCH // steps)
-    # Whole blocks need no padding later; what comes after the end is not looked at.
-    n = np.arange(steps + 1 + -(steps + 1) % BLOCK)
-    X = dX * np.minimum(n + abscissae(scheme)[:, None], steps)
-    for i in range(len(bases)):
-        cases = np.flatnonzero(base.ravel() == i)
-        ground = np.concatenate(under_wheels(robots[cases[0]], road, X), axis=1)
-        for some in np.split(cases, range(size, len(cases), size)):
-            N[some] = _smallest(
-                robots[some], v.ravel()[some, None, None], ground, steps, dX, scheme
+    if v.size * steps > MAX_WORK:
+        raise ValueError(
+            f"steps must be at most {MAX_WORK} in all cases together, "
+            f"got {v.size} cases of {steps} steps"
+        )
+    shape, robots, v = v.shape, robots.ravel(), v.ravel()
+    least = np.empty((v.size, 2))
+    bases = [(robot.L1, robot.L2) for robot in robots]
+    X = distance / steps * np.arange(steps + 1)
+    abscissae = np.unique([0.0, *scheme.c])
+    for base in set(bases):
+        cases = np.array([i for i, other in enumerate(bases) if other == base])
+        # All that the wheels meet in a step, shape (steps + 1, 4 * abscissae); none is asked for
+        # beyond the end.
+        places = np.minimum(np.add.outer(X, abscissae * distance / steps), distance)
+        ground = np.vstack(under_wheels(robots[cases[0]], road, places.ravel()))
+        ground = np.moveaxis(ground.reshape(4, *places.shape), 0, -1).reshape(steps + 1, -1)
+        for some in np.split(cases, range(BATCH, len(cases), BATCH)):
+            least[some] = _least_forces(
+                robots[some], v[some], ground, abscissae, distance / steps, scheme
             )
-    return N.reshape(*v.shape, 2)
+    return least.reshape(*shape, 2)
 
 
-def _smallest(robots, v, ground, steps, dX, scheme):
-    A, P, C, D = (np.array([getattr(robot, name) for robot in robots]) for name in "APCD")
-    D[..., 2:] *= v  # acts on slopes
-    run = Discrete(scheme, A / v, P @ D / v, C, D, dX)
-    u = ground.reshape(-1, ground.shape[-1])
-    y, _ = run(run.start(0.0, u), u)
-    return y[..., : steps + 1].min(axis=-1) + [robot.C @ robot.equilibrium for robot in robots]
+def _least_forces(robots, v, ground, abscissae, dX, scheme):
+    """Smallest forces of n cases on the same road, shape (n, 2)."""
+    A, B, C, D = (np.array([getattr(robot, name) for robot in robots]) for name in "ABCD")
+    slow = v[:, None, None]
+    felt = np.concatenate([np.ones((2, len(v))), [v, v]]).T[:, None]  # height; rate of change
+    B, D = B * felt, D * felt
+    R, G = scheme.one_step(A / slow, dX)
+    inputs = [G[scheme.c == c].sum(axis=0) @ (B / slow) for c in abscissae]
+    # The case as the last axis, so that each step is a few long loops.
+    R, inputs, C, D = (
+        np.ascontiguousarray(np.moveaxis(M, 0, -1))
+        for M in (R, np.concatenate(inputs, axis=2), C, D)
+    )
+    d = np.zeros((4, len(v)))  # deviation from equilibrium
+    least = np.full((2, len(v)), np.inf)
+    with np.errstate(over="ignore", invalid="ignore"):  # an unstable run may overflow
+        for u in ground:
+            N = np.einsum("ijn,jn->in", C, d) + np.einsum("ijn,j->in", D, u[:4])
+            np.minimum(least, N, out=least)
+            d = np.einsum("ijn,jn->in", R, d) + np.einsum("ijn,j->in", inputs, u)
+    return least.T + [robot.C @ robot.equilibrium for robot in robots]
 
 
 def _robots(robots):
     robots = np.asarray(robots, dtype=object)
     for robot in robots.flat:
         if not isinstance(robot, Robot):
-            raise ValueError(f"robots must be a Robot or an array of them, got {robot!r}")
+            raise TypeError(f"robots must be a Robot or an array of them, got {robot!r}")
     return robots

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from suspension import contact, critical
-from suspension import margin as exact_margin
+from suspension import least_force
 from suspension.contact import Loss, exact_loss, first_loss, margin, minima, normal_forces
 from suspension.exact import Crossing, over_bump
 from suspension.road import FlatRoad, GaussianBump
@@ -125,8 +125,8 @@ def test_a_finely_sampled_run_loses_contact_just_after_the_exact_moment(robot, v
 def test_the_force_is_zero_at_the_exact_loss_and_positive_before(robot, v):
     loss, crossing = exact_loss(robot, BUMP, v), Crossing(robot, BUMP, v)
     before = loss.t * np.concatenate([np.linspace(0, 1, 5000)[:-1], 1 - np.geomspace(1e-9, 1e-2)])
-    assert (exact_margin.forces(crossing, before)[0] > 0).all()
-    assert abs(exact_margin.forces(crossing, np.array([loss.t]))[0, loss.wheel - 1, 0]) < 1e-11
+    assert (least_force.exact_forces(crossing, before)[0] > 0).all()
+    assert abs(least_force.exact_forces(crossing, np.array([loss.t]))[0, loss.wheel - 1, 0]) < 1e-11
 
 
 def test_a_dip_too_short_for_the_samples_is_not_missed():
@@ -157,6 +157,6 @@ def test_a_loss_needs_a_moving_robot():
 
 def test_contact_is_where_every_verdict_is_found():
     for name in ("margin", "minima", "Minimum"):
-        assert getattr(contact, name) is getattr(exact_margin, name)
+        assert getattr(contact, name) is getattr(least_force, name)
     for name in ("critical_speeds", "critical_stiffness", "sensitivity"):
         assert getattr(contact, name) is getattr(critical, name)

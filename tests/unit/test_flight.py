@@ -435,7 +435,7 @@ def test_a_robot_that_chatters_is_told_when(ripple):
     with pytest.raises(
         RuntimeError, match=r"chatters: 100 switches just before t = \S+ s"
     ) as error:
-        fly(ROBOT, road, v=10, tfinal=10)
+        fly(ROBOT, road, v=10, tfinal=1)
     time = float(re.search(r"t = (\S+) s", str(error.value))[1])
     assert 0 < time < 0.1
 
@@ -462,7 +462,7 @@ def test_a_kerb_is_driven_over():
     [
         ("v", np.nan, "a finite number"),
         ("tfinal", 0, "> 0"),
-        ("tfinal", 1e9, "at most 100000 steps"),
+        ("tfinal", 1e9, "at most 10000 steps"),
         ("w0", [0, 0, 0], r"shape \(4\)"),
         ("w0", [0, 0, np.inf, 0], "finite"),
         ("wheel", "flies", "'follows', 'relaxes'"),

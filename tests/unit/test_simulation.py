@@ -250,5 +250,5 @@ def test_a_run_starts_where_it_is_told():
 ])  # fmt: skip
 def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"road": BUMP, "v": 1, "dt": 0.01, "tfinal": 0.1} | {name: value}
-    with pytest.raises(ValueError, match=f"^{name} must "):
+    with pytest.raises((ValueError, TypeError), match=f"^{name} must "):
         simulate(ROBOT, **arguments)
