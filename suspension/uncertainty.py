@@ -6,29 +6,86 @@ distributions follow without any further assumption or sampling.
 """
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
+from suspension.branches import End, branches
 from suspension.contact import critical_speeds, critical_stiffness, margin
+from suspension.springs import SpringFit, Stiffness
 
-__all__ = ["critical_speed_intervals", "loss_probability", "stiffness_distribution"]
+__all__ = [
+    "CriticalSpeed",
+    "critical_speed_intervals",
+    "critical_speeds_by_stiffness",
+    "loss_probability",
+    "stiffness_distribution",
+]
+
+WIDEST = 20.0  # stiffnesses further from the estimate than this factor are left out
+EXACT = 1e-9  # relative errors below this are roundoff: the stiffness is taken as known
 
 
-def stiffness_distribution(fit):
-    """Confidence distribution of the stiffness in N/m, a frozen `scipy.stats.t`."""
-    error = np.asarray(fit.results.bse)[1] / fit.delta_max
-    return stats.t(fit.results.df_resid, loc=fit.stiffness, scale=error)
+class CriticalSpeed(NamedTuple):
+    """A critical speed while the stiffness goes through its confidence interval.
+
+    Attributes
+    ----------
+    speed : float or None
+        At the estimate of the stiffness, m/s; None if there is none.
+    low, high : float
+        The least and the largest value, m/s.
+    born, dies : End or None
+        Where inside the interval of the stiffness it begins and ends to exist: `End.k`, `End.v`
+        and `End.why`, ``"pair"`` if two critical speeds appear or vanish together, ``"range"`` if
+        it enters or leaves the range of speeds. None if it exists to that end of the interval.
+    """
+
+    speed: float | None
+    low: float
+    high: float
+    born: End | None
+    dies: End | None
+
+    @property
+    def exists_from(self):
+        """The stiffness in N/m above which it exists, None if that is outside the interval."""
+        return self.born and self.born.k
+
+    @property
+    def exists_to(self):
+        """The stiffness in N/m up to which it exists, None if that is outside the interval."""
+        return self.dies and self.dies.k
+
+    @property
+    def everywhere(self):
+        """Whether it exists in the whole interval of the stiffness."""
+        return self.born is None and self.dies is None
 
 
-def critical_speed_intervals(fit, robot, bump, vmin, vmax, level=0.95):
-    """Every critical speed with its confidence interval.
+def stiffness_distribution(stiffness):
+    """Confidence distribution of the stiffness in N/m, a frozen `scipy.stats.t`.
 
     Parameters
     ----------
-    fit : SpringFit
+    stiffness : Stiffness or SpringFit
+        Of a fit, the slope at zero.
+    """
+    return _stiffness(stiffness).distribution
+
+
+def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95):
+    """Every critical speed with its confidence interval.
+
+    Each critical speed is followed while the stiffness goes through its interval. Where a pair
+    appears or vanishes on the way the interval ends there, and that is told.
+
+    Parameters
+    ----------
+    stiffness : Stiffness or SpringFit
+        Of a fit, the slope at zero.
     robot : Robot
-        Both stiffnesses are replaced by the fitted one.
+        Both stiffnesses are replaced.
     bump : GaussianBump
     vmin, vmax : float
         Range of speeds, m/s.
@@ -37,38 +94,99 @@ def critical_speed_intervals(fit, robot, bump, vmin, vmax, level=0.95):
 
     Returns
     -------
-    intervals : ndarray, shape (n, 3)
-        Speed at the estimate, lower and upper end, m/s; nan where the critical speed does not
-        exist, or leaves the range, at an end of the interval of the stiffness.
+    intervals : tuple of CriticalSpeed
+        In order of speed; also those that do not exist at the estimate itself. Stiffnesses below
+        a twentieth and above twenty times the estimate are left out.
     """
-
-    def speeds(k):
-        return critical_speeds(replace(robot, k1=k, k2=k), bump, vmin, vmax)
-
-    best = speeds(fit.stiffness)
-    ends = [_follow(best, speeds(k)) for k in fit.stiffness_interval(level)]
-    return np.column_stack([best, np.sort(ends, axis=0).T]) if len(best) else np.empty((0, 3))
+    stiffness = _stiffness(stiffness)
+    return _intervals([stiffness], robot, bump, vmin, vmax, level)[0]
 
 
-def _follow(best, moved):
-    # In order of speed, critical speeds appear and vanish in pairs or at the ends of the range.
-    if len(moved) == len(best):
-        return moved
-    nearest = [moved[np.abs(np.log(moved / v)).argmin()] if len(moved) else np.nan for v in best]
-    return np.where(np.abs(np.log(np.array(nearest) / best)) < 0.3, nearest, np.nan)
+def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95):
+    """What each of the three stiffnesses of a spring does to the critical speeds.
+
+    Parameters
+    ----------
+    fit : SpringFit
+    robot : Robot
+        Both stiffnesses are replaced; half of its weight is the load of the tangent.
+    bump, vmin, vmax, level
+        As in `critical_speed_intervals`.
+
+    Returns
+    -------
+    pairs : tuple of (Stiffness, tuple of CriticalSpeed)
+    """
+    stiffnesses = fit.stiffnesses(robot.m * robot.g / 2)
+    intervals = _intervals(stiffnesses, robot, bump, vmin, vmax, level)
+    return tuple(zip(stiffnesses, intervals))
 
 
-def loss_probability(fit, robot, bump, v):
+def _intervals(stiffnesses, robot, bump, vmin, vmax, level):
+    """The critical speeds for each stiffness, from branches followed once for all of them."""
+    bounds = [_bounds(stiffness, *stiffness.interval(level)) for stiffness in stiffnesses]
+    kmin, kmax = np.min(bounds), np.max(bounds)
+    first = stiffnesses[0].value
+    if kmax - kmin <= EXACT * first:
+        speeds = critical_speeds(replace(robot, k1=first, k2=first), bump, vmin, vmax)
+        known = tuple(CriticalSpeed(v, v, v, None, None) for v in map(float, speeds))
+        return [known] * len(stiffnesses)
+    found = branches(robot, bump, vmin, vmax, kmin, kmax, check=first)
+    return [_within(found, stiffness.value, *ends) for stiffness, ends in zip(stiffnesses, bounds)]
+
+
+def _within(found, k, low, high):
+    """The parts of the branches between two stiffnesses, in order of speed."""
+    parts = []
+    for branch in found:
+        extent = branch.extent(low, high)
+        if extent is not None:
+            born = branch.first if branch.first and branch.first.k > low else None
+            dies = branch.last if branch.last and branch.last.k < high else None
+            parts.append(CriticalSpeed(branch.speed(k), *extent, born, dies))
+    return tuple(sorted(parts, key=lambda part: part.low * part.high))
+
+
+def loss_probability(stiffness, robot, bump, v):
     """How much of the stiffness's confidence distribution loses contact at speed `v`, 0 to 1.
 
     Between two critical stiffnesses the verdict is one and the same, so this is a sum of
     differences of the distribution function.
+
+    Parameters
+    ----------
+    stiffness : Stiffness or SpringFit
+        Of a fit, the slope at zero.
+    robot : Robot
+        Both stiffnesses are replaced.
+    bump : GaussianBump
+    v : float
+        Speed, m/s, > 0.
     """
-    k = stiffness_distribution(fit)
-    low, high = max(k.ppf(1e-9), 0.05 * fit.stiffness), k.ppf(1 - 1e-9)
-    nominal = replace(robot, k1=fit.stiffness, k2=fit.stiffness)
+    stiffness = _stiffness(stiffness)
+    k = stiffness.distribution
+
+    def lost(k):
+        return margin(replace(robot, k1=k, k2=k), bump, v) <= 0
+
+    if stiffness.error <= EXACT * stiffness.value:
+        return float(lost(stiffness.value))
+    low, high = _bounds(stiffness, k.ppf(1e-9), k.ppf(1 - 1e-9))
+    nominal = replace(robot, k1=stiffness.value, k2=stiffness.value)
     flips = critical_stiffness(nominal, bump, v, low, high)
     edges = np.array([low, *flips, high])
-    middle = (edges[1:] + edges[:-1]) / 2
-    lost = [margin(replace(robot, k1=k, k2=k), bump, v) <= 0 for k in middle]
-    return float(np.diff([0.0, *k.cdf(flips), 1.0]) @ lost)
+    verdicts = [lost(middle) for middle in (edges[1:] + edges[:-1]) / 2]
+    return float(np.diff([0.0, *k.cdf(flips), 1.0]) @ verdicts)
+
+
+def _bounds(stiffness, low, high):
+    """The ends of an interval, but none further from the estimate than a factor `WIDEST`."""
+    return max(low, stiffness.value / WIDEST), min(high, stiffness.value * WIDEST)
+
+
+def _stiffness(stiffness):
+    if isinstance(stiffness, SpringFit):
+        return stiffness.slope
+    if isinstance(stiffness, Stiffness):
+        return stiffness
+    raise TypeError(f"stiffness must be a Stiffness or a SpringFit, got {stiffness!r}")

@@ -1,0 +1,310 @@
+"""Sentences and rows about the data: what was read, whether it was invented, how stiff it is."""
+
+import numpy as np
+
+from suspension.report.words import (
+    SPACE,
+    count,
+    fixed,
+    interval,
+    join,
+    number,
+    percent,
+    quantity,
+)
+from suspension.springs import TRUE_STIFFNESS, is_synthetic
+
+__all__ = [
+    "consequence_rows",
+    "data_rows",
+    "existence",
+    "hindsight",
+    "made_sentence",
+    "read_sentence",
+    "source_sentence",
+    "stiffness_rows",
+    "stiffness_sentence",
+    "synthetic_note",
+]
+
+
+# --- what was read ----------------------------------------------------------------------------
+
+
+def source_sentence(data):
+    """Which file, how many readings, and whether they are invented."""
+    origin = f"The file is `{data.attrs['source']}`, {count(len(data), 'reading')}. "
+    if is_synthetic(data):
+        return origin + (
+            "**These data are synthetic:** they stand in for measurements that are not public, "
+            "and every number below that follows from them is a number about an invented spring."
+        )
+    return origin + "These are not the synthetic data this book ships with."
+
+
+def read_sentence(data, fit):
+    """What was read: file, points, ranges, unit, slope, and what the reader noticed."""
+    x, force = data["delta_over_delta_max"], data["force"]
+    sentence = (
+        f"Read from `{data.attrs['source']}`: {count(len(data), 'reading')}, "
+        f"$\\delta/\\delta_{{\\max}}$ from {_end(x.min())} to {_end(x.max())} "
+        f"with $\\delta_{{\\max}}$ = {quantity(1000 * fit.delta_max, 'mm')}, forces from "
+        f"{_end(force.min())} to {_end(force.max())}{SPACE}N for the pair of springs. The fitted "
+        f"slope at zero is {quantity(fit.stiffness, 'N/m', 4)}."
+    )
+    notes = data.attrs.get("notes", ())
+    return sentence + (f" The reader noticed: {join(notes)}." if notes else "")
+
+
+def _end(x):
+    """A reading in at most four digits, without zeros behind."""
+    text = f"{round(float(x), 4) + 0.0:.4g}"
+    return text.replace("-", "−")
+
+
+def data_rows(data):
+    """The readings, each column with the decimals it needs, four at most."""
+    columns = {
+        r"$\delta/\delta_{\max}$": data["delta_over_delta_max"].to_numpy(),
+        "force (N)": data["force"].to_numpy(),
+    }
+    texts = {name: [fixed(x, _decimals(xs)) for x in xs] for name, xs in columns.items()}
+    return [dict(zip(texts, row)) for row in zip(*texts.values())]
+
+
+def _decimals(values):
+    for decimals in range(4):
+        if np.allclose(values, np.round(values, decimals), rtol=0, atol=1e-9):
+            return decimals
+    return 4
+
+
+def synthetic_note(data):
+    """A short sentence for any page, empty if the data are not synthetic."""
+    if not is_synthetic(data):
+        return ""
+    return "The spring data are synthetic: they stand in for measurements that are not public."
+
+
+def made_sentence(data):
+    """How the synthetic data were made; of others this book knows nothing."""
+    if not is_synthetic(data):
+        return (
+            "The synthetic stand-in that this book ships with was not used, and nothing is known "
+            "here of the spring behind these data but the readings."
+        )
+    return (
+        "How the stand-in was made, once, without tuning: "
+        f"{count(len(data), 'displacement')} from 0 to 1; a linear spring of "
+        f"{quantity(TRUE_STIFFNESS, 'N/m')} without preload; Gaussian noise with a standard "
+        f"deviation of 0.12{SPACE}N; readings rounded to 0.02{SPACE}N, which is a scale that "
+        "reads to one gram, doubled. The generator is `data/make_spring_data.py` and its seed is "
+        "2086. Knowing the truth is a luxury that real data never grant, and "
+        "[Part I](../notebooks/01-regression.ipynb) makes use of it only in hindsight."
+    )
+
+
+def hindsight(data, fit):
+    """Whether the interval of the stiffness holds the truth, which only synthetic data have."""
+    if not is_synthetic(data):
+        return ""
+    low, high = fit.stiffness_interval()
+    where = "inside" if low <= TRUE_STIFFNESS <= high else "outside"
+    return (
+        "In hindsight, which only synthetic data allow: the true stiffness, "
+        f"{quantity(TRUE_STIFFNESS, 'N/m')}, is {where} the interval of Answer 1(ii)."
+    )
+
+
+# --- which stiffness does the robot feel? -----------------------------------------------------
+
+
+def stiffness_rows(fit, load):
+    """Each stiffness with its interval and what it rests on.
+
+    Parameters
+    ----------
+    fit : SpringFit
+    load : float
+        The force that one pair of springs carries at rest, N.
+    """
+    linear = fit.linearity().linear
+    remarks = {
+        fit.slope.name: "asked for in Question 1",
+        fit.line.name: "compatible with the data" if linear else "contradicted by the data",
+    }
+    tangent = fit.tangent(load)
+    if tangent is not None:
+        remarks[tangent.name] = f"at $\\delta/\\delta_{{\\max}}$ = {_static(fit, load)}"
+    return [
+        {
+            "stiffness": stiffness.name,
+            "estimate (N/m)": _stiffness(stiffness.value, stiffness.error),
+            f"95{SPACE}% interval (N/m)": _interval(stiffness),
+            "standard error (N/m)": "0" if _exact(stiffness) else number(stiffness.error, 2),
+            "remark": remarks[stiffness.name],
+        }
+        for stiffness in fit.stiffnesses(load)
+    ]
+
+
+def _exact(stiffness):
+    """Whether the readings lie on the curve, so that roundoff is all the error there is."""
+    return stiffness.error < 1e-9 * stiffness.value
+
+
+def _decimals_for(error):
+    return 0 if error > 10 else 1
+
+
+def _stiffness(value, error):
+    return fixed(value, _decimals_for(error))
+
+
+def _interval(stiffness):
+    return interval(*stiffness.interval(), decimals=_decimals_for(stiffness.error))
+
+
+def _static(fit, load):
+    """The displacement at rest, and whether anybody has measured there."""
+    x = fit.displacement(load)
+    measured = fit.results.model.exog[:, 1]
+    outside = x > measured.max() or x < measured.min()
+    return fixed(x, 3) + (", outside the measured range" if outside else "")
+
+
+def stiffness_sentence(fit, load):
+    """Which stiffness the robot feels: the line's if the data allow it, else the tangent's.
+
+    Parameters
+    ----------
+    fit : SpringFit
+    load : float
+        The force that one pair of springs carries at rest, N.
+    """
+    parts = [
+        "Question 1 asks for the slope of the parabola at zero, where the spring carries nothing."
+    ]
+    if fit.linearity().linear:
+        parts.append(
+            "The data do not contradict a line through the origin. Who accepts that line should "
+            f"take its slope, {_with_interval(fit.line)}{_narrower(fit)}."
+        )
+    else:
+        parts.append(
+            "The data contradict a line through the origin, so the slope of the best such line is "
+            "no more than a mean over the measured range."
+        )
+    parts.append(_at_rest(fit, load))
+    return " ".join(parts)
+
+
+def _with_interval(stiffness):
+    value = _stiffness(stiffness.value, stiffness.error)
+    return f"{value}{SPACE}N/m ({_interval(stiffness)})"
+
+
+def _narrower(fit):
+    if _exact(fit.line):
+        return ""
+    times = np.ptp(fit.slope.interval()) / np.ptp(fit.line.interval())
+    return f", whose interval is {number(times, 2)} times narrower" if times > 1.1 else ""
+
+
+def _at_rest(fit, load):
+    tangent = fit.tangent(load)
+    half = f"half of its weight, {quantity(load, 'N')}"
+    if tangent is None:
+        return f"The fitted parabola bends down before it carries {half}: it has no tangent there."
+    where = f"$\\delta/\\delta_{{\\max}}$ = {fixed(fit.displacement(load), 3)}"
+    sentence = (
+        f"The robot swings about its rest, where each pair carries {half}, at {where}; the "
+        f"tangent there is {_with_interval(tangent)}, {_compared(tangent, fit.slope)}."
+    )
+    if "outside" in _static(fit, load):
+        sentence += " That displacement lies outside the measured range: it is an extrapolation."
+    return sentence
+
+
+def _compared(tangent, slope):
+    change = tangent.value / slope.value - 1
+    if abs(change) < 0.0005:
+        return "the same as the slope at zero"
+    more = "more" if change > 0 else "less"
+    low, high = slope.interval()
+    inside = "inside" if low <= tangent.value <= high else "**outside**"
+    return f"{percent(abs(change))} {more} than the slope at zero and {inside} its interval"
+
+
+# --- what they do to the critical speeds ------------------------------------------------------
+
+
+def existence(critical):
+    """Where in the interval of the stiffness a critical speed exists, empty if everywhere.
+
+    Parameters
+    ----------
+    critical : suspension.uncertainty.CriticalSpeed
+    """
+    born, dies = critical.born, critical.dies
+    pair_from = born.k if born and born.why == "pair" else None
+    pair_to = dies.k if dies and dies.why == "pair" else None
+    words = []
+    if pair_from and pair_to:
+        words.append(f"exists only for k from {number(pair_from, 4)} to {_k(pair_to)}")
+    elif pair_from:
+        words.append(f"exists only for k > {_k(pair_from)}")
+    elif pair_to:
+        words.append(f"exists only for k < {_k(pair_to)}")
+    if born and born.why == "range":
+        words.append(f"enters the range of speeds at k = {_k(born.k)}")
+    if dies and dies.why == "range":
+        words.append(f"leaves the range of speeds at k = {_k(dies.k)}")
+    return join(words, none="")
+
+
+def _k(k):
+    return quantity(k, "N/m", 4)
+
+
+def consequence_rows(by_stiffness):
+    """Each stiffness, and each critical speed that follows from it.
+
+    Parameters
+    ----------
+    by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
+        From `suspension.uncertainty.critical_speeds_by_stiffness`.
+    """
+    rows = []
+    for stiffness, speeds in by_stiffness:
+        name = f"{stiffness.name}, {_stiffness(stiffness.value, stiffness.error)}{SPACE}N/m"
+        for critical in speeds:
+            rows.append(_consequence(name, critical))
+        if not speeds:
+            rows.append(_row(name, "none", "–", "–"))
+    return rows
+
+
+def _consequence(name, critical):
+    low, high = critical.low, critical.high
+    digits = _speed_digits(low, high)
+    at_estimate = "–" if critical.speed is None else number(critical.speed, digits)
+    ends = f"{number(low, digits)} to {number(high, digits)}"
+    return _row(name, at_estimate, ends, existence(critical) or "–")
+
+
+def _row(name, speed, ends, note):
+    return {
+        "stiffness": name,
+        "critical speed (m/s)": speed,
+        f"95{SPACE}% interval (m/s)": ends,
+        "note": note,
+    }
+
+
+def _speed_digits(low, high):
+    """Three digits, or more where they are needed to tell the two ends apart, six at most."""
+    for digits in (3, 4, 5):
+        if high - low > 5 * 10.0 ** (np.floor(np.log10(high)) + 1 - digits):
+            return digits
+    return 6 if high > low else 4
