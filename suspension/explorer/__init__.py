@@ -5,34 +5,35 @@ needs no kernel and holds no physics: any `Robot` and any road work in it, and w
 what `suspension.simulation.simulate` computes.
 """
 
-import io
 import json
-import re
 from pathlib import Path
-from urllib.parse import quote
 
 import anywidget
 import ipywidgets
-import matplotlib.pyplot as plt
 import numpy as np
 import traitlets
 
 from suspension import _checks
-from suspension.explorer.tables import region, road_table, robot_table, step_table, vary_stiffness
-from suspension.figures import RobotDrawing, plot_forces, plot_stability
-from suspension.forces import WHEEL
-from suspension.schemes import CRANK_NICOLSON, RK4
+from suspension.explorer.bundle import bundle
+from suspension.explorer.controls import controls
+from suspension.explorer.settings import DTS, MOMENTS, SCHEMES, VIEWS, VMAX, VMIN
+from suspension.explorer.still import still
+from suspension.explorer.tables import (
+    ROBOT_FIELDS,
+    region,
+    road_table,
+    robot_table,
+    step_fields,
+    step_table,
+    vary_stiffness,
+)
+from suspension.robot import Robot
+from suspension.schemes import RK4
 from suspension.simulation import simulate
 
 __all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore"]
 
-SCHEMES = (CRANK_NICOLSON, RK4)
-# Whole multiples of the last one, so that every run can be compared with it sample by sample.
-DTS = (0.2, 0.1, 0.08, 0.07, 0.06, 0.05, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005, 0.00025)
-VMIN, VMAX = 0.1, 25.0
-MOMENTS = 1000  # stops of the time slider
 PAGE = Path(__file__).parent / "page"
-SCRIPTS = ("model.js", "pen.js", "panels.js", "view.js")
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
@@ -53,8 +54,7 @@ class Explorer(anywidget.AnyWidget):
         The given robot with every stiffness that the slider offers.
     """
 
-    # One module for the browser, kept as four files for its readers.
-    _esm = "".join((PAGE / name).read_text(encoding="utf-8") for name in SCRIPTS)
+    _esm = bundle(PAGE, "view")
     _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
 
     v = traitlets.Float(1.2).tag(sync=True)
@@ -82,9 +82,15 @@ class Explorer(anywidget.AnyWidget):
                 "dts": DTS,
                 "finest": SCHEMES.index(max(stable, key=lambda scheme: scheme.order)),
                 "moments": MOMENTS,
+                "robotFields": ROBOT_FIELDS,
                 "schemes": [
-                    {"name": s.name, "c": np.unique(s.c).tolist(), "region": region(s)}
-                    for s in SCHEMES
+                    {
+                        "name": scheme.name,
+                        "c": np.unique(scheme.c).tolist(),
+                        "region": region(scheme),
+                        "fields": step_fields(scheme),
+                    }
+                    for scheme in SCHEMES
                 ],
             },
             tables={name: table.astype("<f8").tobytes() for name, table in tables.items()},
@@ -104,9 +110,13 @@ class Explorer(anywidget.AnyWidget):
         suspension.simulation.Trajectory
         """
         return simulate(
-            self.robot, self.road, v=self.v, dt=DTS[self.dt_index],
-            tfinal=self.distance / self.v, scheme=SCHEMES[self.scheme_index],
-        )  # fmt: skip
+            self.robot,
+            self.road,
+            v=self.v,
+            dt=DTS[self.dt_index],
+            tfinal=self.distance / self.v,
+            scheme=SCHEMES[self.scheme_index],
+        )
 
 
 class ExplorerBox(ipywidgets.VBox):
@@ -115,9 +125,9 @@ class ExplorerBox(ipywidgets.VBox):
     A page shows a still picture of the same settings until its scripts run, or where they do not.
     """
 
-    def __init__(self, explorer, controls):
+    def __init__(self, explorer, sliders):
         self.explorer = explorer
-        super().__init__([controls, explorer])
+        super().__init__([sliders, explorer])
         self.add_class("suspension-explorer-box")
 
     def _repr_mimebundle_(self, **kwargs):
@@ -161,9 +171,12 @@ def explore(
 
     Raises
     ------
+    TypeError
+        If `robot` is not a Robot, or `road` cannot be called.
     ValueError
         If an argument is not in its range.
     """
+    _checks.instance("robot", robot, Robot)
     robots, own = vary_stiffness(robot)
     k = robot.k1 if k is None else _checks.positive("k", k)
     names = [known.name for known in SCHEMES]
@@ -175,7 +188,7 @@ def explore(
         dt_index=DTS.index(_checks.one_of("dt", dt, DTS)),
         k_index=int(np.argmin([abs(other.k1 - k) for other in robots])),
         scheme_index=names.index(_checks.one_of("scheme", getattr(scheme, "name", scheme), names)),
-        view=_checks.one_of("view", view, ("forces", "stability", "robot")),
+        view=_checks.one_of("view", view, VIEWS),
     )
     if time is None:
         run = explorer.trajectory()
@@ -183,65 +196,4 @@ def explore(
         time = min(t * v / distance, 1)
     time = _checks.number("time", time, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
     explorer.time = round(MOMENTS * time)
-    return ExplorerBox(explorer, _controls(explorer, own))
-
-
-def _controls(explorer, own):
-    stiffness = [
-        f"{r.k1:.0f}" if r.k1 == r.k2 else f"{r.k1:.0f} and {r.k2:.0f}" for r in explorer.robots
-    ]
-    stiffness[own] += " (fitted)"
-    controls = {
-        "v": ipywidgets.FloatLogSlider(
-            explorer.v, min=np.log10(VMIN), max=np.log10(VMAX), readout_format=".3g",
-            step=0,  # any other would round a typed value
-        ),
-        "dt_index": ipywidgets.SelectionSlider(
-            options=[f"{1000 * dt:g}" for dt in DTS], index=explorer.dt_index
-        ),
-        "k_index": ipywidgets.SelectionSlider(options=stiffness, index=explorer.k_index),
-        "scheme_index": ipywidgets.ToggleButtons(
-            options=[scheme.name for scheme in SCHEMES], index=explorer.scheme_index
-        ),
-        "time": ipywidgets.IntSlider(explorer.time, max=MOMENTS, readout=False),
-    }  # fmt: skip
-    labels = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Scheme", "Moment"]
-    for (trait, control), label in zip(controls.items(), labels, strict=True):
-        control.description = label
-        control.layout.width = "auto"
-        source = (control, "index" if trait.endswith("index") else "value")
-        ipywidgets.jslink(source, (explorer, trait))
-    controls["v"].add_class("se-typed")
-    return ipywidgets.Box(list(controls.values()))
-
-
-def still(explorer):
-    """The same picture as an HTML image, with a text for those who cannot see it."""
-    run, robot = explorer.trajectory(), explorer.robot
-    lifts = f"the {WHEEL[run.loss.wheel]} wheel leaves the ground" if run.loss else "no wheel lifts"
-    stable = run.scheme.is_stable(robot.eigenvalues, run.dt)
-    text = (
-        f"The robot on the road, both normal forces and the stability region of {run.scheme.name}: "
-        f"at {run.v:g} metres per second {lifts}, the smallest force is {run.N.min():.3g} newtons, "
-        f"and a step of {1000 * run.dt:g} milliseconds is {'' if stable else 'un'}stable."
-    )
-    with plt.style.context("suspension.figures.report"):
-        figure, axes = plt.subplot_mosaic(
-            [["robot", "robot"], ["forces", "stability"]], figsize=(7.2, 4.8),
-            height_ratios=[1, 1.6], width_ratios=[1.7, 1],
-        )  # fmt: skip
-        n = min(round(explorer.time / MOMENTS * explorer.distance / run.v / run.dt), len(run.T) - 1)
-        drawing = RobotDrawing(axes["robot"], robot, explorer.road)
-        drawing.ground(run.X[n] - 3 * robot.L1, run.X[n] + 3 * robot.L2)
-        drawing.update(run.W[:, n], run.X[n])
-        plot_forces(run, axes["forces"])
-        plot_stability(run.scheme, robot.eigenvalues, [run.dt], ax=axes["stability"])
-        axes["stability"].legend().remove()
-        picture = io.StringIO()
-        figure.savefig(picture, format="svg")
-        plt.close(figure)
-    # A hundredth of a point is enough, and text that is not base64 is easily compressed.
-    picture = re.sub(r"(\d\.\d\d)\d+", r"\1", picture.getvalue())
-    picture = quote(picture, safe=" /:;,=()")
-    source = f"data:image/svg+xml,{picture}"
-    return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
+    return ExplorerBox(explorer, controls(explorer, own))

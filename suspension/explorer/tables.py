@@ -12,7 +12,17 @@ import numpy as np
 
 from suspension.road import profile
 
-__all__ = ["region", "road_table", "robot_table", "step_table", "vary_stiffness"]
+__all__ = [
+    "ROBOT_FIELDS",
+    "region",
+    "road_table",
+    "robot_table",
+    "step_fields",
+    "step_table",
+    "vary_stiffness",
+]
+
+ROBOT_FIELDS = [("CD", 16), ("equilibrium", 4), ("re", 4), ("im", 4)]
 
 NODES = -np.cos(np.pi * np.arange(5) / 4)  # where a cell, -1 to 1, meets the road
 POWERS = np.arange(2 * len(NODES))
@@ -41,6 +51,12 @@ def vary_stiffness(robot):
     return robots, own
 
 
+def step_fields(scheme):
+    """What a row of a scheme's `step_table` holds: pairs of a name and a length, in order."""
+    stages = len(np.unique(scheme.c))  # those of equal c added up
+    return [("M", 4 * (4 + 2 * stages)), ("growth", 4), ("stable", 1)]
+
+
 def step_table(scheme, robots, dts):
     """Everything about one step, for every robot and dt.
 
@@ -54,8 +70,9 @@ def step_table(scheme, robots, dts):
     Returns
     -------
     table : ndarray, shape (len(robots), len(dts), 16 + 8 q + 5)
-        The columns of ``[R, G_c P, ..]``, shape (4, 4 + 2 q), with q different abscissae c, stages
-        of equal c added up; ``|R(lambda dt)|`` of the four modes; 1 if the step is stable, else 0.
+        By `step_fields`: the columns of ``[R, G_c P, ..]``, shape (4, 4 + 2 q), with q different
+        abscissae c, stages of equal c added up; ``|R(lambda dt)|`` of the four modes; 1 if the
+        step is stable, else 0.
     """
     A, P = np.stack([robot.A for robot in robots]), np.stack([robot.P for robot in robots])
     table = []
@@ -63,12 +80,9 @@ def step_table(scheme, robots, dts):
         R, G = scheme.one_step(A, dt)
         GP = [(G[scheme.c == c] @ P).sum(axis=0) for c in np.unique(scheme.c)]
         columns = np.concatenate([R, *GP], axis=2).swapaxes(1, 2).reshape(len(robots), -1)
-        modes = [
-            [*np.abs(scheme.stability_function(robot.eigenvalues * dt)),
-             scheme.is_stable(robot.eigenvalues, dt)]
-            for robot in robots
-        ]  # fmt: skip
-        table.append(np.hstack([columns, modes]))
+        growth = [np.abs(scheme.stability_function(robot.eigenvalues * dt)) for robot in robots]
+        stable = [[scheme.is_stable(robot.eigenvalues, dt)] for robot in robots]
+        table.append(np.hstack([columns, growth, stable]))
     return np.stack(table, axis=1)
 
 
@@ -78,12 +92,14 @@ def robot_table(robots):
     Returns
     -------
     table : ndarray, shape (len(robots), 28)
+        By `ROBOT_FIELDS`.
     """
-    return np.stack([
-        np.concatenate([robot.C.T.ravel(), robot.D.T.ravel(), robot.equilibrium,
-                        robot.eigenvalues.real, robot.eigenvalues.imag])
-        for robot in robots
-    ])  # fmt: skip
+    rows = []
+    for robot in robots:
+        lam = robot.eigenvalues
+        parts = [robot.C.T.ravel(), robot.D.T.ravel(), robot.equilibrium, lam.real, lam.imag]
+        rows.append(np.concatenate(parts))
+    return np.stack(rows)
 
 
 def road_table(road, start, stop, max_cells=4096):

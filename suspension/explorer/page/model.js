@@ -4,24 +4,30 @@
 const unpack = (view) =>
   new Float64Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
 
+/** Row n of a table by its fields, whose names and lengths Python gives in their order. */
+function readRow(table, fields, n) {
+  const found = {};
+  let start = n * fields.reduce((sum, [, length]) => sum + length, 0);
+  for (const [name, length] of fields) {
+    found[name] = table.subarray(start, start + length);
+    start += length;
+  }
+  return found;
+}
+
 /** All tables and facts, with functions that look up what belongs to a choice of the sliders. */
-function readTables(facts, tables) {
+export function readTables(facts, tables) {
   const table = Object.fromEntries(Object.entries(tables).map(([key, t]) => [key, unpack(t)]));
-  const rows = table.robots.length / 28;
   return {
     ...facts,
     road: makeRoad(facts.road, table.road),
     robot(k) {
-      const row = table.robots.subarray(28 * k, 28 * (k + 1));
-      const [CD, rest] = [row.subarray(0, 16), row.subarray(16, 20)];
-      return { CD, rest, re: row.subarray(20, 24), im: row.subarray(24) };
+      return readRow(table.robots, facts.robotFields, k);
     },
     step(scheme, k, dt) {
-      const { name, c } = facts.schemes[scheme];
-      const size = table[name].length / rows / facts.dts.length;
-      const row = table[name].subarray((k * facts.dts.length + dt) * size).subarray(0, size);
-      const [M, growth] = [row.subarray(0, size - 5), row.subarray(size - 5, size - 1)];
-      return { M, c, growth, stable: row[size - 1] === 1 };
+      const { name, c, fields } = facts.schemes[scheme];
+      const { M, growth, stable } = readRow(table[name], fields, k * facts.dts.length + dt);
+      return { M, c, growth, stable: stable[0] === 1 };
     },
   };
 }
@@ -50,7 +56,7 @@ function makeRoad([start, cell, size], table) {
 }
 
 /** Number of steps to cover a time: rounded up, but forgiving roundoff, as in Python. */
-function countSteps(tfinal, dt) {
+export function countSteps(tfinal, dt) {
   const J = tfinal / dt, whole = Math.round(J);
   return Math.max(Math.abs(J - whole) <= 1e-12 * J ? whole : Math.ceil(J), 1);
 }
@@ -73,12 +79,12 @@ const row = (M, i, size, a, b, c, d) =>
 const felt = (D, i, u, j) => row(D, i, 2, u[j], u[j + 1], u[j + 2], u[j + 3]);
 
 /**
- * A function that runs J steps from rest: states W (4 arrays) and normal forces N (2 arrays) at
+ * A function that runs J steps from equilibrium: states W (4 arrays) and normal forces N (2 arrays) at
  * t = 0, dt, .., J dt. The next run overwrites the arrays: that is much faster than new ones.
  */
-function makeRunner(data) {
+export function makeRunner(data) {
   let memory = new Float64Array(0), last = null, stages, u;
-  return ({ CD, rest }, { M, c }, v, dt, J) => {
+  return ({ CD, equilibrium }, { M, c }, v, dt, J) => {
     const size = J + 1, between = c.filter((c) => c !== 0 && c !== 1);
     const key = [v, dt, J, ...c].join();
     if (key !== last) {
@@ -93,10 +99,10 @@ function makeRunner(data) {
     const rows = Array.from({ length: 6 }, (_, i) => memory.subarray(i * size, (i + 1) * size));
     const W = rows.slice(0, 4), N = rows.slice(4);
     const [W0, W1, W2, W3] = W, [N1, N2] = N, D = CD.subarray(8);
-    let [d0, d1, d2, d3] = [0, 0, 0, 0]; // deviation from rest
+    let [d0, d1, d2, d3] = [0, 0, 0, 0]; // deviation from equilibrium
     for (let n = 0; ; n++) {
-      const w0 = (W0[n] = rest[0] + d0), w1 = (W1[n] = rest[1] + d1);
-      const w2 = (W2[n] = rest[2] + d2), w3 = (W3[n] = rest[3] + d3);
+      const w0 = (W0[n] = equilibrium[0] + d0), w1 = (W1[n] = equilibrium[1] + d1);
+      const w2 = (W2[n] = equilibrium[2] + d2), w3 = (W3[n] = equilibrium[3] + d3);
       N1[n] = row(CD, 0, 2, w0, w1, w2, w3) + felt(D, 0, u, 4 * n);
       N2[n] = row(CD, 1, 2, w0, w1, w2, w3) + felt(D, 1, u, 4 * n);
       if (n === J) break;
@@ -115,20 +121,23 @@ function makeRunner(data) {
   };
 }
 
-/** First sample without contact and smallest force, with wheel (0 rear, 1 front) and time. */
-function judge({ N, dt }, J) {
-  let margin = Infinity, most = -Infinity, worst = 0, wheel = 0, lost = null;
+/**
+ * First sample without contact; least and largest force, the least with its wheel (0 rear,
+ * 1 front) and its time.
+ */
+export function judge({ N, dt }, J) {
+  let least = Infinity, most = -Infinity, worst = 0, wheel = 0, lost = null;
   for (let n = 0; n <= J; n++) {
     const low = N[1][n] < N[0][n] ? 1 : 0;
-    if (N[low][n] < margin) [margin, worst, wheel] = [N[low][n], n, low];
+    if (N[low][n] < least) [least, worst, wheel] = [N[low][n], n, low];
     if (N[1 - low][n] > most) most = N[1 - low][n];
     if (lost === null && N[low][n] <= 0) lost = { wheel: low, t: n * dt };
   }
-  return { margin, most, wheel, t: worst * dt, lost };
+  return { least, most, wheel, t: worst * dt, lost };
 }
 
 /** Largest difference in force from a run with steps `every` times shorter. */
-function difference(a, b, every) {
+export function difference(a, b, every) {
   let most = 0;
   for (const i of [0, 1]) {
     for (let n = 0; n <= a.J; n++) most = Math.max(most, Math.abs(a.N[i][n] - b.N[i][n * every]));
@@ -137,7 +146,7 @@ function difference(a, b, every) {
 }
 
 /** The moment `at` steps after the start; between two samples on the straight line that is drawn. */
-function lookUp({ W, N, J, dt }, at) {
+export function lookUp({ W, N, J, dt }, at) {
   const place = Math.min(at, J), n = Math.min(Math.floor(place), J - 1), part = place - n;
   const mix = (x) => (part === 0 ? x[n] : part === 1 ? x[n + 1] : x[n] + part * (x[n + 1] - x[n]));
   return { t: place * dt, W: W.map(mix), N: N.map(mix) };

@@ -1,12 +1,14 @@
 // The three panels. Each draws one scene: what was computed, and the moment shown.
 
-const WHEEL = ["rear", "front"];
+import { clamp, show, ticks } from "./pen.js";
+
+export const WHEEL = ["rear", "front"];
 const NAMES = ["N₁", "N₂"];
 const FAR = 5000; // pixels
 const DASH = [[], [7, 4]]; // rear solid, front dashed
 
 /** The robot on the road, one scale for both directions; the picture moves along with it. */
-function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now }) {
+export function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now }) {
   const { road, wheels } = data, length = wheels[1] - wheels[0];
   const scale = w / (length * clamp(w / 230, 2, 2.9)); // pixels a metre
   const X = run.v * now.t, u = new Float64Array(4), spot = new Float64Array(4);
@@ -51,7 +53,7 @@ function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now 
     dot(x, hub, r * scale, "paper", WHEEL[i], 3);
 
     const N = now.N[i], foot = py(u[i]), at = x + (i ? 1 : -1) * (r * scale + 16);
-    const arrow = clamp((34 * N) / run.N[i][0], 0, 110); // 34 pixels for the force at rest
+    const arrow = clamp((34 * N) / run.N[i][0], 0, 110); // 34 pixels for the force at equilibrium
     stroke(WHEEL[i], 2.5);
     line(at, foot, at, foot - arrow);
     if (arrow > 7) line(at - 4, foot - arrow + 6, at, foot - arrow, at + 4, foot - arrow + 6);
@@ -91,11 +93,11 @@ function trace(values, x, y, width) {
 }
 
 /** Both forces against time; broad and pale behind them those of the finest step. */
-function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
+export function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
   const { data, run, finest, verdict, truth, now } = scene, end = data.distance / run.v;
   const [left, right, top, bottom] = [40, w - 10, 50, h - 34];
-  const floor = Math.min(0, truth.margin), span = truth.most - floor || 1; // of the finest step
-  const low = Math.max(Math.min(floor, verdict.margin), floor - 0.7 * span) - 0.05 * span;
+  const floor = Math.min(0, truth.least), span = truth.most - floor || 1; // of the finest step
+  const low = Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
   const high = Math.min(Math.max(truth.most, verdict.most), truth.most + 0.7 * span) + 0.05 * span;
   const px = (t) => left + ((right - left) * t) / end;
   const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
@@ -161,7 +163,7 @@ function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
       const style = { align, colour: "alarm", bold: true, halo: true };
       text("contact lost", lost + (align === "left" ? 9 : -9), py(0) + 18, style);
     }
-    if (verdict.margin < low || verdict.most > high) {
+    if (verdict.least < low || verdict.most > high) {
       const style = { align: "right", colour: "alarm", bold: true, halo: true };
       text("grows out of this picture", right - 8, top + 16, style);
     }
@@ -169,7 +171,7 @@ function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
 }
 
 /** The region where no mode grows, the modes' lambda dt in it, and where other steps put them. */
-function drawStability({ w, h, stroke, fill, line, dot, text, inside }, scene) {
+export function drawStability({ w, h, stroke, fill, line, dot, text, inside }, scene) {
   const { data, robot, step, scheme, dt } = scene;
   const z = Array.from(robot.re, (re, i) => [re, robot.im[i]]);
   const [left, right, top, bottom] = [26, w - 4, 26, h - 34];

@@ -1,9 +1,9 @@
 // What every panel needs: numbers as text, round numbers for an axis, a pen for a canvas.
 
-const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
+export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /** A number in few digits, with a true minus sign and powers of ten. */
-function show(x, digits = 3) {
+export function show(x, digits = 3) {
   if (!Number.isFinite(x)) return "more than 10³⁰⁰";
   const [mantissa, power] = x.toExponential(digits - 1).split("e").map(Number);
   const raised = String(power).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
@@ -13,7 +13,7 @@ function show(x, digits = 3) {
 }
 
 /** Round numbers from low to high, at most `count` steps of 1, 2 or 5 times a power of ten. */
-function ticks(low, high, count) {
+export function ticks(low, high, count) {
   const raw = (high - low) / count, ten = 10 ** Math.floor(Math.log10(raw));
   const step = ten * [1, 2, 5, 10].find((m) => m * ten >= raw);
   const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
@@ -21,7 +21,7 @@ function ticks(low, high, count) {
 }
 
 /** A cleared canvas at the screen's resolution, and a pen with the theme's colours. */
-function begin(canvas, colours) {
+export function begin(canvas, colours) {
   const ratio = window.devicePixelRatio || 1, g = canvas.getContext("2d");
   const w = canvas.clientWidth, h = canvas.clientHeight;
   const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];

@@ -1,5 +1,9 @@
 // The view: it follows the sliders, puts the run into words, and plays it. It computes no physics.
 
+import { countSteps, difference, judge, lookUp, makeRunner, readTables } from "./model.js";
+import { WHEEL, drawForces, drawRobot, drawStability } from "./panels.js";
+import { begin, show } from "./pen.js";
+
 const SECONDS = 8; // one crossing, played
 const PAUSE = 250; // ms between two changes of the words, so that a screen reader can follow
 const STRIDE = 0.02; // an arrow key changes the speed by a factor of 10^0.02, 5 %
@@ -46,10 +50,10 @@ function describe({ data, v, scheme, dt, step, verdict, truth, error, same, now 
   const place = ({ wheel, t }) => `${WHEEL[wheel]} wheel, ${moment(t)}`;
   const contact = ({ lost }) => `contact ${lost ? "lost" : "kept"}`;
   const most = Math.max(...step.growth), R = `|R| = ${most < 10 ? most.toFixed(5) : show(most, 4)}`;
-  const margin = `smallest force ${unit(verdict.margin, "N")}`;
+  const least = `smallest force ${unit(verdict.least, "N")}`;
   const finest = `the finest step (${method(data.finest, data.dts.at(-1))})`;
   const doubt = contact(truth) === contact(verdict) ? "" : `, which says: ${contact(truth)}`;
-  const where = verdict.lost ? `${place(verdict.lost)}; ${margin}` : `${margin}, ${place(verdict)}`;
+  const where = verdict.lost ? `${place(verdict.lost)}; ${least}` : `${least}, ${place(verdict)}`;
   return {
     verdict: step.stable ? contact(verdict).replace("c", "C") : "Unstable run, so no verdict",
     place: step.stable ? `: ${where}.` : ` (it says: ${contact(verdict)}, ${where}).`,
@@ -168,7 +172,7 @@ function render({ model, el }) {
     model.set("time", time);
     model.save_changes();
   };
-  const rest = () => {
+  const stopPlaying = () => {
     playing = null;
     write(button, calm.matches ? "Step" : "▶\uFE0E Play");
     schedule();
@@ -180,11 +184,11 @@ function render({ model, el }) {
     playing.time = Math.min(time, data.moments);
     setTime(playing.time);
     if (playing.time < data.moments) requestAnimationFrame(advance);
-    else rest();
+    else stopPlaying();
   };
   button.addEventListener("click", () => {
     const time = model.get("time") % data.moments; // from the end it starts again
-    if (playing) return rest();
+    if (playing) return stopPlaying();
     if (calm.matches) return setTime(Math.min(time + data.moments / 20, data.moments));
     playing = { time };
     write(button, "❚❚ Pause");
@@ -193,7 +197,7 @@ function render({ model, el }) {
 
   const changes = {
     time() {
-      if (playing && model.get("time") !== playing.time) rest(); // somebody took the slider
+      if (playing && model.get("time") !== playing.time) stopPlaying(); // somebody took the slider
       schedule();
     },
     view() {
@@ -216,8 +220,8 @@ function render({ model, el }) {
     schedule();
   });
   for (const [canvas] of canvases) sizes.observe(canvas);
-  calm.addEventListener("change", rest);
-  rest();
+  calm.addEventListener("change", stopPlaying);
+  stopPlaying();
   root.trajectory = () => { // for those who compare: the run as it is shown, in plain arrays
     update();
     const { v, dt, k, scheme, run } = scene;
@@ -227,7 +231,7 @@ function render({ model, el }) {
     for (const [name, change] of Object.entries(changes)) model.off(`change:${name}`, change);
     themes.disconnect();
     sizes.disconnect();
-    calm.removeEventListener("change", rest);
+    calm.removeEventListener("change", stopPlaying);
     clearTimeout(timer);
     cancelAnimationFrame(frame);
     playing = null;
