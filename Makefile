@@ -1,4 +1,5 @@
-# make book | test | lab | notebooks | bench | clean.  Needs Python 3.11, 3.12 or 3.13 and nothing else.
+# make book | quick | test | mutants | lab | notebooks | bench | clean
+# Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
     $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 14) and print('$(name)')" 2>/dev/null)))
@@ -8,28 +9,47 @@ PEERS := .venv/bench/.installed
 NPM := book/npm/node_modules/.package-lock.json
 BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
 
-.PHONY: book test lab notebooks bench clean
+PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
 
-book: $(VENV) $(NPM)
+.PHONY: book readings lint quick test mutants lab notebooks bench clean
+
+book: $(VENV) readings $(NPM)
 	$(BUILD)
 
-test: book
+# What the book is about to be made from; an unusable file ends it here.
+readings: $(VENV)
+	@$(BIN)/python -m suspension.springs
+
+lint: $(VENV)
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
+	$(BIN)/ruff format --check .
+
+# After every change: under a minute, and no book is needed. Tests marked slow wait for `make test`.
+quick: lint
+	$(PYTEST) --dist worksteal -m "not slow" tests/unit suspension
+
+# Before a change is handed in: everything.
+test: book lint
+	$(PYTEST) --dist loadfile
+
+# Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
+# MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.
+mutants: $(VENV)
+	$(BIN)/python tests/mutants.py $(if $(SAMPLE),--sample $(SAMPLE)) $(MODULES)
 
 lab: $(VENV)
 	$(BIN)/jupyter lab --notebook-dir=notebooks
 
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
-	$(BIN)/python tests/normalise.py notebooks/*.ipynb
+	$(BIN)/python notebooks/normalise.py notebooks/*.ipynb
 
 # Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
 bench: $(PEERS)
 	.venv/bench/bin/python benchmarks/run.py $(BENCH)
 
 clean:
-	rm -rf .venv _build book/npm/node_modules suspension.egg-info
+	rm -rf .venv _build book/npm/node_modules
 
 $(VENV): requirements.txt pyproject.toml
 	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))

@@ -11,22 +11,14 @@ import shutil
 import statistics
 import sys
 import tempfile
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
-
 ROOT = Path(__file__).parents[1]
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from helpers import find_chromium, serve_files, start_chromium  # noqa: E402
+from lab import run_all, serve  # noqa: E402
+
 MOVES = 120
 OPENINGS = 7
 MARK = "suspension.explorer.Explorer"  # stands in the state of every page with an explorer
@@ -79,9 +71,6 @@ def report(steps, moves, budgets=("", "")):
 
 def in_jupyterlab(browser):
     """The same slider in JupyterLab, with a kernel behind it."""
-    sys.path.insert(0, str(ROOT / "tests"))
-    from lab import run_all, serve
-
     with tempfile.TemporaryDirectory() as folder, serve(Path(folder)) as address:
         shutil.copy(ROOT / "notebooks/07-drive.ipynb", folder)
         tab = browser.new_page(viewport={"width": 1280, "height": 900})
@@ -119,15 +108,7 @@ def main(book):
     live = [page for page in pages if MARK in (book / page).read_text(encoding="utf-8")]
     if not live:
         sys.exit(f"no page with an explorer in {book}")
-    server = ThreadingHTTPServer(
-        ("127.0.0.1", 0), partial(type("Quiet", (SimpleHTTPRequestHandler,),
-                                       {"log_message": lambda *args: None}), directory=book)
-    )  # fmt: skip
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    address = f"http://127.0.0.1:{server.server_port}/"
-    chromium = next(filter(None, map(shutil.which, BROWSERS)))
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+    with serve_files(book) as address, start_chromium(find_chromium()) as browser:
         for live_page in live:
             usable = []
             for _ in range(OPENINGS):
@@ -158,8 +139,6 @@ def main(book):
                 f"(<= 1.2), {heaviest}"
             )
         in_jupyterlab(browser)
-        browser.close()
-    server.shutdown()
 
 
 if __name__ == "__main__":

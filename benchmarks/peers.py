@@ -114,9 +114,16 @@ def adaptive(method, rtol=1e-8):
 
         def run():
             W = integrate.solve_ivp(
-                rate, (0, T[-1]), robot.equilibrium, method=method, t_eval=T, rtol=rtol,
-                atol=rtol * 1e-2, max_step=2 * bump.sigma / v, **jacobian,
-            ).y  # fmt: skip
+                rate,
+                (0, T[-1]),
+                robot.equilibrium,
+                method=method,
+                t_eval=T,
+                rtol=rtol,
+                atol=rtol * 1e-2,
+                max_step=2 * bump.sigma / v,
+                **jacobian,
+            ).y
             return normal_forces(robot, bump, v, T, W)
 
         return run
@@ -139,11 +146,18 @@ def tsit5(rtol=1e-8):
         @jax.jit
         def solve(w0, T):
             W = diffrax.diffeqsolve(
-                diffrax.ODETerm(lambda t, w, args: A @ w + B @ road(t) + e), diffrax.Tsit5(),
-                t0=0.0, t1=T[-1], dt0=1e-3, y0=w0, saveat=diffrax.SaveAt(ts=T), max_steps=10**6,
+                diffrax.ODETerm(lambda t, w, args: A @ w + B @ road(t) + e),
+                diffrax.Tsit5(),
+                t0=0.0,
+                t1=T[-1],
+                dt0=1e-3,
+                y0=w0,
+                saveat=diffrax.SaveAt(ts=T),
+                max_steps=10**6,
                 stepsize_controller=diffrax.PIDController(
-                    rtol=rtol, atol=rtol * 1e-2, dtmax=2 * bump.sigma / v),
-            ).ys  # fmt: skip
+                    rtol=rtol, atol=rtol * 1e-2, dtmax=2 * bump.sigma / v
+                ),
+            ).ys
             return W.T, C @ W.T + D @ jax.vmap(road)(T).T
 
         w0, times = jnp.asarray(robot.equilibrium), jnp.asarray(T)

@@ -90,23 +90,34 @@ def work_a(robot, bump, peers):
     runs = {name: make(robot, bump, v, T) for name, make in makers.items()}
     first, best = clock(runs)
     return [
-        {"name": name, "seconds": best[name], "first": first[name],
-         "error": float(np.abs(run() - truth).max())}
+        {
+            "name": name,
+            "seconds": best[name],
+            "first": first[name],
+            "error": float(np.abs(run() - truth).max()),
+        }
         for name, run in runs.items()
-    ]  # fmt: skip
+    ]
 
 
 def work_b(robot, bump, peers):
     """Time against the number of steps, and the memory of 100,000."""
     v, tfinal = 0.25, 5.0
-    most = {"simulate": 10**6, "Numba, the recurrence": 10**6, "signal.lsim": 10**5,
-            "textbook RK4": 10**4}  # fmt: skip
+    most = {
+        "simulate": 10**6,
+        "Numba, the recurrence": 10**6,
+        "signal.lsim": 10**5,
+        "textbook RK4": 10**4,
+    }
     makers = [peers.package, peers.numba_recurrence, peers.lsim, peers.textbook]
     seconds = {name: {} for name in most}
     for J in (10**2, 10**3, 10**4, 10**5, 10**6):
         T = tfinal / J * np.arange(J + 1)
-        runs = {name: make(robot, bump, v, T)
-                for (name, limit), make in zip(most.items(), makers) if limit >= J}  # fmt: skip
+        runs = {
+            name: make(robot, bump, v, T)
+            for (name, limit), make in zip(most.items(), makers)
+            if limit >= J
+        }
         for name, best in clock(runs)[1].items():
             seconds[name][J] = best
     from suspension.simulation import simulate
@@ -149,9 +160,13 @@ def work_d(robot, bump, peers):
     wanted = tfinal / 100 * np.arange(101)
     truth = peers.closed_form(robot, bump, v, wanted)()
     found, runs = {}, {"closed form": peers.closed_form(robot, bump, v, wanted)}
-    fixed = {"simulate": peers.package, "Numba, the recurrence": peers.numba_recurrence,
-             "Numba, the textbook loop": peers.numba_stages, "signal.lsim": peers.lsim,
-             "textbook RK4": peers.textbook}  # fmt: skip
+    fixed = {
+        "simulate": peers.package,
+        "Numba, the recurrence": peers.numba_recurrence,
+        "Numba, the textbook loop": peers.numba_stages,
+        "signal.lsim": peers.lsim,
+        "textbook RK4": peers.textbook,
+    }
     for name, make in fixed.items():
         for J in (100 * m for m in (10, 20, 30, 40, 50, 60, 80, 100, 1000, 4000)):
             run = make(robot, bump, v, tfinal / J * np.arange(J + 1))
@@ -160,8 +175,10 @@ def work_d(robot, bump, peers):
             if error <= ACCURACY:
                 runs[name] = run
                 break
-    adaptive = {f"solve_ivp {m}": lambda rtol, m=m: peers.adaptive(m, rtol)
-                for m in ("DOP853", "LSODA", "RK45", "Radau")}  # fmt: skip
+    adaptive = {
+        f"solve_ivp {m}": lambda rtol, m=m: peers.adaptive(m, rtol)
+        for m in ("DOP853", "LSODA", "RK45", "Radau")
+    }
     adaptive["diffrax Tsit5"] = peers.tsit5
     for name, make in adaptive.items():
         for digits in range(7, 14):
@@ -179,41 +196,30 @@ def work_d(robot, bump, peers):
 
 def parts(robot, bump):
     """Where the time of work (a) goes, in ns a step."""
-    from suspension import simulation
+    from scipy.linalg.lapack import dtbtrs
+
     from suspension.schemes import RK4
     from suspension.simulation import simulate
 
     J, v, dt = 5000, 0.25, 1e-3
-    chunk = simulation.CHUNK
-
-    def chunked(J, call):
-        return lambda: [call(j) for j in range(0, J + 1, chunk)]
-
-    discrete = simulation._discrete(robot, RK4, dt)
-    recurrence = discrete.recurrence
     rng = np.random.default_rng(0)
-    block = recurrence.block
-    rows = rng.random((chunk // block, recurrence.kernel.shape[-2]))
-    x, f = rng.random(4 * chunk), rng.random((4, chunk))
-    exponent, out = -x, np.empty(4 * chunk)
-    y, product = rng.random((7, chunk)), np.empty((6, chunk // block, block))
-    held = np.empty_like(y)
-    zero = np.zeros(4)
+    x, y = rng.random(4 * J), rng.random((7, J))
+    exponent, out, held = -x, np.empty(4 * J), np.empty_like(y)
+    # The steps w_{n+1} - R w_n = b_n, a matrix with ones on its diagonal and seven bands below.
+    R, _ = RK4.one_step(robot.A, dt)
+    column = np.zeros((4, 8))
+    for j in range(4):
+        column[j, 4 - j : 8 - j] = -R[:, j]
+    band, b = np.tile(column, (J, 1)).T, rng.random(4 * J)
     runs = {
         "whole": lambda: simulate(robot, bump, v=v, dt=dt, tfinal=J * dt),
         "exponential": lambda: np.exp(exponent, out=out),
         "road": lambda: bump(x),
-        "product": lambda: np.matmul(rows, recurrence.kernel, out=product),
-        "recurrence": lambda: recurrence(zero, f),
+        "solve": lambda: dtbtrs(band, b, uplo="L", diag="U"),
         "memory": lambda: np.copyto(held, y),
-        "setup": lambda: (simulation._discrete.cache_clear(),
-                          simulation._discrete(robot, RK4, dt).recurrence.starts),
-    }  # fmt: skip
-    best = clock(runs, rounds=30, each=0.01)[1]
-    return {
-        name: 1e9 * seconds / (J if name in ("whole", "setup") else chunk)
-        for name, seconds in best.items()
     }
+    best = clock(runs, rounds=30, each=0.01)[1]
+    return {name: 1e9 * seconds / J for name, seconds in best.items()}
 
 
 def book():
@@ -228,8 +234,17 @@ def book():
         return time.perf_counter() - start, done.stdout
 
     with tempfile.TemporaryDirectory() as folder:
-        build = [python.with_name("jupyter-book"), "build", ".", "-W", "-n", "--keep-going",
-                 "--all", "--path-output", folder]  # fmt: skip
+        build = [
+            python.with_name("jupyter-book"),
+            "build",
+            ".",
+            "-W",
+            "-n",
+            "--keep-going",
+            "--all",
+            "--path-output",
+            folder,
+        ]
         cold, warm = timed(*build)[0], timed(*build)[0]
         html = Path(folder, "_build/html")
         explorer = timed(python, HERE / "bench_explorer.py", html)[1]

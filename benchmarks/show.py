@@ -5,6 +5,9 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
+from suspension.report import table
+from suspension.report.words import number, quantity
+
 ROOT = Path(__file__).parents[1]
 TABLES = Path(__file__).with_name("results.md")
 FIGURES = ROOT / "book/figures"
@@ -22,10 +25,11 @@ def write(results):
         "parts": _parts(results),
         "book": _book(results.get("book")),
     }
-    text = "\n\n".join(f"<!-- {name} -->\n\n{text}\n\n<!-- end {name} -->"
-                       for name, text in sections.items())  # fmt: skip
+    text = "\n\n".join(
+        f"<!-- {name} -->\n\n{text}\n\n<!-- end {name} -->" for name, text in sections.items()
+    )
     TABLES.write_text(text + "\n")
-    plt.style.use(ROOT / "suspension/report.mplstyle")
+    plt.style.use("suspension.figures.report")
     plt.rcParams.update({"svg.hashsalt": "speed", "svg.fonttype": "path"})
     for name, draw in (("speed-work", _draw_work), ("speed-steps", _draw_steps)):
         figure = draw(results)
@@ -37,22 +41,15 @@ def write(results):
 def _time(seconds):
     for unit, size in (("s", 1), ("ms", 1e-3), ("µs", 1e-6)):
         if seconds >= size or unit == "µs":
-            return f"{seconds / size:.3g}\N{NO-BREAK SPACE}{unit}"
+            return quantity(seconds / size, unit)
 
 
 def _ratio(x):
     return f"{float(f'{x:.2g}'):,g}"
 
 
-def _power(x):
-    mantissa, exponent = f"{x:.1e}".split("e")
-    return rf"${mantissa}\cdot10^{{{int(exponent)}}}$"
-
-
-def _table(head, rows, align):
-    rule = "|" + "|".join({"l": ":--", "r": "--:"}[a] for a in align) + "|"
-    lines = ["| " + " | ".join(cells) + " |" for cells in [head, *rows]]
-    return "\n".join([lines[0], rule, *lines[1:]])
+def _error(x):
+    return number(x, 2) if x else "–"  # the reference itself
 
 
 def _name(name):
@@ -61,85 +58,100 @@ def _name(name):
 
 def _machine(machine):
     versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
-    return (f"Measured on {machine['date']} on one core of a machine with {machine['cores']} "
-            f"({machine['processor']}, {machine['system']}), with Python {machine['python']}, "
-            f"{versions}.")  # fmt: skip
+    return (
+        f"Measured on {machine['date']} on one core of a machine with {machine['cores']} "
+        f"({machine['processor']}, {machine['system']}), with Python {machine['python']}, "
+        f"{versions}."
+    )
 
 
 def _work_a(rows):
     unit = next(row["seconds"] for row in rows if row["name"] == "simulate")
-    return _table(
-        ["what computes it", "time", "in units of `simulate`", "first call", "error (N)"],
-        [[_name(row["name"]), _time(row["seconds"]), _ratio(row["seconds"] / unit),
-          _time(row["first"]), _power(row["error"]) if row["error"] else "reference"]
-         for row in sorted(rows, key=lambda row: row["seconds"])],
-        "lrrrr",
-    )  # fmt: skip
+    return table(
+        [
+            {
+                "what computes it": _name(row["name"]),
+                "time": _time(row["seconds"]),
+                "in units of `simulate`": _ratio(row["seconds"] / unit),
+                "first call": _time(row["first"]),
+                "error (N)": _error(row["error"]),
+            }
+            for row in sorted(rows, key=lambda row: row["seconds"])
+        ]
+    )
 
 
 def _work_b(work):
     seconds = work["seconds"]
-    steps = list(seconds["simulate"])
-    rows = [
-        [_name(name), *(f"{1e9 * times[J] / int(J):.0f}" if J in times else "–" for J in steps)]
-        for name, times in seconds.items()
-    ]
-    table = _table(["ns per step", *(f"{int(J):,} steps" for J in steps)], rows, "lrrrrr")
-    return (f"{table}\n\nAt its peak `simulate` holds {work['memory']:.2f} times the memory of the "
-            "arrays that it returns.")  # fmt: skip
+    rows = []
+    for name, times in seconds.items():
+        row = {"ns per step": _name(name)}
+        for J in seconds["simulate"]:
+            row[f"{int(J):,} steps"] = f"{1e9 * times[J] / int(J):.0f}" if J in times else "–"
+        rows.append(row)
+    return (
+        f"{table(rows)}\n\nAt its peak `simulate` holds {work['memory']:.2f} times the memory of "
+        "the arrays that it returns."
+    )
 
 
 def _work_c(work):
-    rows = [[_name(name), f"{ns:,.3g} ns"] for name, ns in work.items()]
-    return _table(["what computes it", "per step and case"], rows, "lr")
+    return table(
+        [
+            {"what computes it": _name(name), "per step and case": quantity(ns, "ns")}
+            for name, ns in work.items()
+        ]
+    )
 
 
 def _work_d(rows):
-    rows = sorted(rows, key=lambda row: row["seconds"] or float("inf"))
-    return _table(
-        ["what computes it", "with", "time", "error (N)"],
-        [[_name(row["name"]), re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", row["setting"]),
-          _time(row["seconds"]) if row["seconds"] else "not reached",
-          _power(row["error"]) if row["error"] else "reference"] for row in rows],
-        "llrr",
-    )  # fmt: skip
+    return table(
+        [
+            {
+                "what computes it": _name(row["name"]),
+                "with": re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", row["setting"]),
+                "time": _time(row["seconds"]) if row["seconds"] else "– (not reached)",
+                "error (N)": _error(row["error"]),
+            }
+            for row in sorted(rows, key=lambda row: row["seconds"] or float("inf"))
+        ]
+    )
 
 
 def _parts(results):
     ns = results["parts"]
-    glue = ns["recurrence"] - ns["product"]
-    rest = ns["whole"] - ns["road"] - ns["recurrence"] - ns["memory"]
-    floor = ns["exponential"] + ns["product"] + ns["memory"]
+    if "solve" not in ns:  # measured before the time loop was a banded solve
+        return "Not measured here."
+    known = ns["road"] + ns["solve"] + ns["memory"]
+    floor = ns["exponential"] + ns["solve"] + ns["memory"]
     loop = next(row["seconds"] for row in results["a"] if row["name"] == "textbook RK4")
-    rows = [
-        ["exponentials, four a step", ns["exponential"]],
-        [
-            "the rest of the road: positions to slopes, array by array",
-            ns["road"] - ns["exponential"],
-        ],
-        ["one product per block of steps: states and forces", ns["product"]],
-        ["joining the blocks, and laying out their inputs", glue],
-        ["writing times, states and forces", ns["memory"]],
-        ["the road's forces, checks, and Python's share of a run this short", rest],
-        ["**all of `simulate`**", ns["whole"]],
-    ]
-    table = _table(["part", "ns per step"], [[name, f"{x:.1f}"] for name, x in rows], "lr")
-    return (f"{table}\n\nThe floor for this formulation, exponentials, product and writing and "
-            f"nothing else, is {floor:.0f} ns a step: `simulate` takes {ns['whole'] / floor:.1f} "
-            f"times that. Preparing the matrices of a robot, a scheme and a step costs "
-            f"{5 * ns['setup']:.0f} µs once. The textbook loop spends {1e6 * loop / 5000:.0f} µs "
-            "a step.")  # fmt: skip
+    parts = {
+        "exponentials, four a step": ns["exponential"],
+        "the rest of the road: from positions to slopes": ns["road"] - ns["exponential"],
+        "the banded solve, which is the time loop": ns["solve"],
+        "writing times, states and forces": ns["memory"],
+        "inputs of the steps, forces, checks, and Python's share": ns["whole"] - known,
+        "**all of `simulate`**": ns["whole"],
+    }
+    rows = [{"part": part, "ns per step": f"{time:.1f}"} for part, time in parts.items()]
+    return (
+        f"{table(rows)}\n\nThe floor for this formulation, exponentials, solve and writing and "
+        f"nothing else, is {floor:.0f} ns a step: `simulate` takes {ns['whole'] / floor:.1f} "
+        f"times that. The textbook loop spends {1e6 * loop / 5000:.0f} µs a step."
+    )
 
 
 def _book(book):
     if not book:
         return "Not measured here."
-    seconds = [["building the book, from nothing", book["cold"]],
-               ["building it again", book["warm"]],
-               ["`make test`, which builds it too", book["tests"]]]  # fmt: skip
-    table = _table(["what is waited for", "time"], [[x, _time(s)] for x, s in seconds], "lr")
-    return "\n".join([table, "", "The explorer in headless Chromium:", "", "```text",
-                      *book["explorer"], "```"])  # fmt: skip
+    waited = {
+        "building the book, from nothing": book["cold"],
+        "building it again": book["warm"],
+        "`make test`, which builds it too": book["tests"],
+    }
+    rows = [{"what is waited for": what, "time": _time(s)} for what, s in waited.items()]
+    explorer = ["The explorer in headless Chromium:", "", "```text", *book["explorer"], "```"]
+    return "\n".join([table(rows), "", *explorer])
 
 
 def _draw_work(results):
@@ -165,8 +177,14 @@ def _draw_steps(results):
         steps = [int(J) for J in times]
         ns = [1e9 * times[str(J)] / J for J in steps]
         ax.plot(steps, ns, style, color=color)
-        ax.annotate(name, (steps[-1], ns[-1]), xytext=(8, place.get(name, 0)), va="center",
-                    textcoords="offset points", color=color)  # fmt: skip
+        ax.annotate(
+            name,
+            (steps[-1], ns[-1]),
+            xytext=(8, place.get(name, 0)),
+            va="center",
+            textcoords="offset points",
+            color=color,
+        )
     ax.set(xscale="log", yscale="log", xlim=(70, 6e7), xlabel="steps", ylabel="time per step (ns)")
     ax.minorticks_off()
     return figure

@@ -1,17 +1,10 @@
 """Fixtures: the built book, a web server that serves it, and a browser to read it with."""
 
 import os
-import shutil
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parents[1]
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]
+from helpers import ROOT, find_chromium, serve_files, start_chromium
 
 
 @pytest.fixture(scope="session")
@@ -23,28 +16,17 @@ def book():
     return folder
 
 
-class QuietHandler(SimpleHTTPRequestHandler):
-    """A file server that keeps pytest's output clean."""
-
-    def log_message(self, *args):
-        """Say nothing."""
-
-
 @pytest.fixture(scope="session")
 def site(book):
     """Address of the book in a sub-folder of a web server, ending in a slash."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=book.parent))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/{book.name}/"
-    server.shutdown()
-    server.server_close()
+    with serve_files(book.parent) as address:
+        yield f"{address}{book.name}/"
 
 
 @pytest.fixture(scope="session")
 def chromium():
     """Path of the system's Chromium, or a skip."""
-    names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
-    path = next(filter(None, map(shutil.which, names)), None)
+    path = find_chromium()
     if path is None:
         pytest.skip("no Chromium found: install Debian's 'chromium' to run the browser tests")
     return path
@@ -53,9 +35,5 @@ def chromium():
 @pytest.fixture(scope="session")
 def browser(chromium):
     """A headless Chromium, driven by Playwright."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+    with start_chromium(chromium) as browser:
         yield browser
-        browser.close()

@@ -3,14 +3,12 @@
 import json
 import re
 from functools import cache
-from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
 import yaml
 from bs4 import BeautifulSoup
-
-ROOT = Path(__file__).parents[2]
+from helpers import ROOT
 
 
 def files_of(entry):
@@ -22,8 +20,10 @@ def files_of(entry):
     return own + files_of(below)
 
 
-PAGES = [re.sub(r"\.(md|ipynb)$", "", page)
-         for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))]
+PAGES = [
+    re.sub(r"\.(md|ipynb)$", "", page)
+    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
+]
 each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
 
 
@@ -80,8 +80,10 @@ def test_internal_links_and_anchors_resolve(book, page):
 def test_no_script_style_image_or_font_is_on_another_host(book, page):
     here = book / f"{page}.html"
     soup = parse(here)
-    loaded = [*addresses(soup, "src", "data", "poster"),
-              *(link["href"] for link in soup.find_all("link") if link.get("rel") != ["canonical"])]
+    loaded = [
+        *addresses(soup, "src", "data", "poster"),
+        *(link["href"] for link in soup.find_all("link") if link.get("rel") != ["canonical"]),
+    ]
     styles = [tag.get_text() for tag in soup.find_all("style")]
     for address in loaded:
         path = here.parent / urlsplit(address).path

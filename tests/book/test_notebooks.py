@@ -2,13 +2,12 @@
 
 import ast
 import re
-from pathlib import Path
 
 import nbformat
 import pytest
+from helpers import ROOT
 from normalise import normalise
 
-ROOT = Path(__file__).parents[2]
 MYST = re.compile(r"\{[a-z:-]+\}`|^(```|:::+) ?\{|^\(.*\)=$", re.MULTILINE)
 PATHS = sorted(ROOT.glob("notebooks/*.ipynb"))
 pytestmark = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
@@ -38,8 +37,9 @@ def test_was_executed(path):
 
 
 def test_stores_numbers_to_compare(path):
-    stored = [str(output) for cell in code_cells(path) if is_compared(cell)
-              for output in cell.outputs]
+    stored = [
+        str(output) for cell in code_cells(path) if is_compared(cell) for output in cell.outputs
+    ]
     assert any(character.isdigit() for text in stored for character in text)
 
 
@@ -58,8 +58,10 @@ def test_is_as_make_notebooks_leaves_it(path):
 
 
 def test_a_cell_has_at_most_10_lines_and_a_notebook_60(path):
-    lines = [len([line for line in cell.source.splitlines() if line.strip()])
-             for cell in code_cells(path)]
+    lines = [
+        len([line for line in cell.source.splitlines() if line.strip()])
+        for cell in code_cells(path)
+    ]
     assert max(lines) <= 10
     assert sum(lines) <= 60
 

@@ -1,11 +1,9 @@
 """axe-core finds nothing to object to on any page, in the light or in the dark."""
 
-from pathlib import Path
-
 import pytest
 import yaml
+from helpers import ROOT
 
-ROOT = Path(__file__).parents[2]
 AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 TOC = yaml.safe_load((ROOT / "_toc.yml").read_text())
 ALL_WIDGETS_SPEAK = """

@@ -27,15 +27,18 @@ def test_what_is_not_a_finite_number_is_refused_by_name_and_value(check, value):
     assert str(error.value).endswith(f"got {value!r}")
 
 
-@pytest.mark.parametrize("check, edge, inside", [
-    (_checks.positive, 0, 5e-324),
-    (_checks.nonnegative, -5e-324, 0),
-    (lambda name, x: _checks.interval(name, x, 0, 1), 1, 1 - 1e-16),
-    (lambda name, x: _checks.interval(name, x, 0, 1), 0, 1e-300),
-    (lambda name, x: _checks.whole(name, x, 4), 3, 4),
-    (lambda name, x: _checks.whole(name, x, 4), 4.5, 5),
-    (lambda name, x: _checks.one_of(name, x, (1, 2)), 3, 2),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "check, edge, inside",
+    [
+        (_checks.positive, 0, 5e-324),
+        (_checks.nonnegative, -5e-324, 0),
+        (lambda name, x: _checks.interval(name, x, 0, 1), 1, 1 - 1e-16),
+        (lambda name, x: _checks.interval(name, x, 0, 1), 0, 1e-300),
+        (lambda name, x: _checks.whole(name, x, 4), 3, 4),
+        (lambda name, x: _checks.whole(name, x, 4), 4.5, 5),
+        (lambda name, x: _checks.one_of(name, x, (1, 2)), 3, 2),
+    ],
+)
 def test_ranges_end_where_they_say(check, edge, inside):
     assert check("x", inside) == inside
     with pytest.raises(ValueError, match=f"^x must be .*, got {edge}$"):
@@ -49,19 +52,22 @@ def test_an_array_comes_back_as_floats_and_none_stands_for_any_length():
     assert np.isnan(_checks.array("x", [np.nan], finite=False)).all()
 
 
-@pytest.mark.parametrize("value, why", [
-    ([1, 2, 3], r"shape \(4, n\), got \(3,\)"),
-    (np.ones(4), r"shape \(4, n\), got \(4,\)"),
-    (np.ones((4, 1, 1)), r"shape \(4, n\), got \(4, 1, 1\)"),
-    (np.ones((5, 4)), r"shape \(4, n\), got \(5, 4\)"),
-    (np.full((4, 1), np.nan), "finite everywhere, got nan"),
-    (np.full((4, 1), -np.inf), "finite everywhere, got -inf"),
-    ([[1], [2], [3], [4, 5]], "an array of numbers"),
-    ([["1"], ["2"], ["3"], ["4"]], "an array of numbers"),
-    (np.full((4, 1), 1j), "an array of numbers"),
-    ([[10**400]] * 4, "an array of numbers"),
-    (None, "an array of numbers"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "value, why",
+    [
+        ([1, 2, 3], r"shape \(4, n\), got \(3,\)"),
+        (np.ones(4), r"shape \(4, n\), got \(4,\)"),
+        (np.ones((4, 1, 1)), r"shape \(4, n\), got \(4, 1, 1\)"),
+        (np.ones((5, 4)), r"shape \(4, n\), got \(5, 4\)"),
+        (np.full((4, 1), np.nan), "finite everywhere, got nan"),
+        (np.full((4, 1), -np.inf), "finite everywhere, got -inf"),
+        ([[1], [2], [3], [4, 5]], "an array of numbers"),
+        ([["1"], ["2"], ["3"], ["4"]], "an array of numbers"),
+        (np.full((4, 1), 1j), "an array of numbers"),
+        ([[10**400]] * 4, "an array of numbers"),
+        (None, "an array of numbers"),
+    ],
+)
 def test_an_array_of_another_kind_is_refused_by_name(value, why):
     with pytest.raises(ValueError, match=f"^W must (be|have) {why}"):
         _checks.array("W", value, (4, None))

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from suspension import contact, critical
-from suspension import least_force
+from suspension import contact, critical, least_force
 from suspension.contact import Loss, exact_loss, first_loss, margin, minima, normal_forces
 from suspension.exact import Crossing, over_bump
 from suspension.road import FlatRoad, GaussianBump
@@ -38,9 +37,12 @@ def test_forces_are_equation_5_written_out():
     W = np.random.default_rng(2086).normal(size=(4, 7))
     Y, Ydot, theta, thetadot = W
     for N, k, c, arm in zip(
-        normal_forces(robot, BUMP, v, T, W), (robot.k1, robot.k2), (robot.c1, robot.c2),
-        (-robot.L1, robot.L2), strict=True,
-    ):  # fmt: skip
+        normal_forces(robot, BUMP, v, T, W),
+        (robot.k1, robot.k2),
+        (robot.c1, robot.c2),
+        (-robot.L1, robot.L2),
+        strict=True,
+    ):
         H, dHdx = BUMP(v * T + arm)
         expected = k * (H - Y - arm * theta) + c * (v * dHdx - Ydot - arm * thetadot)
         np.testing.assert_allclose(N, expected, rtol=1e-12)

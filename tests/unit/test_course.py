@@ -13,9 +13,14 @@ from suspension.simulation import simulate
 from suspension.springs import fit_spring, load_spring_data
 
 ROBOTS = st.builds(
-    Robot, k1=st.floats(300, 1500), k2=st.floats(300, 1500), c1=st.floats(0, 10),
-    c2=st.floats(0, 10), L1=st.floats(0.05, 0.2), L2=st.floats(0.05, 0.2),
-)  # fmt: skip
+    Robot,
+    k1=st.floats(300, 1500),
+    k2=st.floats(300, 1500),
+    c1=st.floats(0, 10),
+    c2=st.floats(0, 10),
+    L1=st.floats(0.05, 0.2),
+    L2=st.floats(0.05, 0.2),
+)
 W0 = st.lists(st.floats(-0.1, 0.1), min_size=4, max_size=4)
 SPEEDS = st.floats(-1, 1).map(lambda x: 10**x)
 quick = settings(derandomize=True, deadline=None, max_examples=12)
@@ -121,10 +126,19 @@ def test_gfunc_linear_is_the_robot_with_the_fitted_springs_on_the_bump():
 
 
 @pytest.mark.parametrize("loop", ["RK4", "crank_nicolson"])
-@pytest.mark.parametrize("name, value", [
-    *[(name, value) for name in ("deltat", "tfinal") for value in (0, -1, np.nan, np.inf, None)],
-    ("w0", [0, 0, np.nan, 0]), ("w0", np.zeros((4, 1))), ("w0", 0.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        *[
+            (name, value)
+            for name in ("deltat", "tfinal")
+            for value in (0, -1, np.nan, np.inf, None)
+        ],
+        ("w0", [0, 0, np.nan, 0]),
+        ("w0", np.zeros((4, 1))),
+        ("w0", 0.0),
+    ],
+)
 def test_a_bad_argument_is_refused_by_name(loop, name, value):
     arguments = {"w0": np.zeros(4), "deltat": 0.1, "tfinal": 1} | {name: value}
     if loop == "RK4":

@@ -191,8 +191,9 @@ def test_driving_backwards_is_the_mirror_image(robot):
     np.testing.assert_allclose(
         over_bump(robot, there, -1.0, t, W0),
         flip[:, None] * over_bump(mirror, BUMP, 1.0, t, flip * W0),
-        rtol=0, atol=2e-12,
-    )  # fmt: skip
+        rtol=0,
+        atol=2e-12,
+    )
 
 
 @pytest.mark.parametrize("road", ["no height", "far ahead", "far behind"])
@@ -239,9 +240,14 @@ def test_the_road_under_the_wheels_is_the_road_and_its_derivatives():
 def test_E_is_an_integral_over_the_past(kappa):
     for u in (-6.5, -2.0, -0.4, 0.0, 0.3, 1.7, 5.0):
         expected, _ = integrate.quad(
-            lambda s, u=u: np.exp(kappa * (u - s) - s * s), -9, u,
-            complex_func=True, epsabs=1e-14, epsrel=1e-13, limit=500,
-        )  # fmt: skip
+            lambda s, u=u: np.exp(kappa * (u - s) - s * s),
+            -9,
+            u,
+            complex_func=True,
+            epsabs=1e-14,
+            epsrel=1e-13,
+            limit=500,
+        )
         assert abs(bump_memory(u, kappa) - 2 / np.sqrt(np.pi) * expected) < 1e-13
 
 
@@ -260,9 +266,16 @@ def near(centre, spread):
 
 damping = st.one_of(st.just(0.0), near(3, 30), st.sampled_from([HEAVE, PITCH]))
 robots = st.builds(
-    Robot, k1=near(K, 4), k2=near(K, 4), c1=damping, c2=damping, m=near(M, 3), Izz=near(0.012, 4),
-    L1=near(L, 2), L2=near(L, 2),
-)  # fmt: skip
+    Robot,
+    k1=near(K, 4),
+    k2=near(K, 4),
+    c1=damping,
+    c2=damping,
+    m=near(M, 3),
+    Izz=near(0.012, 4),
+    L1=near(L, 2),
+    L2=near(L, 2),
+)
 bumps = st.builds(
     GaussianBump, height=st.floats(-0.05, 0.05), sigma=near(0.03, 4), centre=st.floats(-0.3, 0.6)
 )

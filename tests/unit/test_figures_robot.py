@@ -9,8 +9,9 @@ from matplotlib import pyplot as plt
 from matplotlib.animation import FuncAnimation
 from PIL import Image, ImageChops, ImageSequence
 
-from suspension.animation import RobotDrawing, animate_robot
+from suspension.animation import animate_robot
 from suspension.course import the_robot
+from suspension.figures.robot import RobotDrawing
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
@@ -35,10 +36,16 @@ def wheels(drawing):
     return np.array([np.ravel(wheel.get_data()) for wheel in drawing.wheels])
 
 
-@pytest.mark.parametrize("Y, theta, on_ground", [
-    (-0.01, 0.0, [True, True]), (0.0, 0.0, [True, True]), (0.01, 0.05, [False, True]),
-    (-0.02, 0.4, [True, False]), (0.2, 0.0, [False, False]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "Y, theta, on_ground",
+    [
+        (-0.01, 0.0, [True, True]),
+        (0.0, 0.0, [True, True]),
+        (0.01, 0.05, [False, True]),
+        (-0.02, 0.4, [True, False]),
+        (0.2, 0.0, [False, False]),
+    ],
+)
 def test_a_wheel_stands_on_the_ground_or_hangs_from_its_spring(drawing, Y, theta, on_ground):
     X = 0.2  # the front wheel is near the top of the bump
     drawing.update(np.array([Y, 0, theta, 0]), X)
@@ -101,11 +108,20 @@ def test_the_problems_robot_and_bump_are_drawn_unless_others_are_given(tmp_path)
     assert ImageChops.difference(ours, picture(road=FlatRoad())).getbbox()
 
 
-@pytest.mark.parametrize("name, value", [
-    ("W", np.zeros((3, 5))), ("W", np.zeros((4, 4))), ("W", np.full((4, 5), np.nan)),
-    ("T", np.zeros((5, 1))), ("T", [0, 1, np.inf, 3, 4]), ("v", np.nan),
-    ("steps_per_frame", 0), ("steps_per_frame", 1.5), ("steps_per_frame", None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("W", np.zeros((3, 5))),
+        ("W", np.zeros((4, 4))),
+        ("W", np.full((4, 5), np.nan)),
+        ("T", np.zeros((5, 1))),
+        ("T", [0, 1, np.inf, 3, 4]),
+        ("v", np.nan),
+        ("steps_per_frame", 0),
+        ("steps_per_frame", 1.5),
+        ("steps_per_frame", None),
+    ],
+)
 def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"W": np.zeros((4, 5)), "T": np.arange(5.0), "v": 1} | {name: value}
     with pytest.raises(ValueError, match=f"^{name} must "):

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import integrate
 
+from suspension import least_force
 from suspension.exact import Crossing, over_bump
 from suspension.least_force import exact_forces, margin, minima, turning_points
 from suspension.road import FlatRoad, GaussianBump, road_input
@@ -25,9 +26,16 @@ def near(centre, spread):
 
 damping = st.one_of(st.just(0.0), near(3, 50))
 robots = st.builds(
-    Robot, k1=near(K, 5), k2=near(K, 5), c1=damping, c2=damping, m=near(1.5, 4),
-    Izz=near(0.012, 5), L1=near(0.1, 3), L2=near(0.1, 3),
-)  # fmt: skip
+    Robot,
+    k1=near(K, 5),
+    k2=near(K, 5),
+    c1=damping,
+    c2=damping,
+    m=near(1.5, 4),
+    Izz=near(0.012, 5),
+    L1=near(0.1, 3),
+    L2=near(0.1, 3),
+)
 bumps = st.builds(
     GaussianBump, height=st.floats(-0.05, 0.05), sigma=near(0.03, 5), centre=st.floats(-0.2, 0.6)
 )
@@ -91,7 +99,9 @@ def test_no_finer_sample_lies_below_the_minimum_nor_far_above(robot, bump, v):
         swing = np.ptp(N[wheel]) + 1
         assert minimum.force <= N[wheel].min() + 1e-12 * swing
         assert minimum.force >= N[wheel].min() - 1e-2 * swing
-        assert exact_forces(crossing, np.array([minimum.t]))[0, wheel, 0] == pytest.approx(minimum.force)
+        assert exact_forces(crossing, np.array([minimum.t]))[0, wheel, 0] == pytest.approx(
+            minimum.force
+        )
 
 
 @pytest.mark.parametrize("v", [0.7, 2.0, 9.0])
@@ -109,7 +119,9 @@ def test_two_modes_that_never_die_are_least_when_they_meet_long_after(v):
 def test_a_minimum_inside_the_run_is_level(robot, bump, v):
     for i, minimum in enumerate(minima(robot, bump, v)):
         if 0 < minimum.t < 1.25 / v:
-            N, slope, bend = exact_forces(Crossing(robot, bump, v), np.array([minimum.t]), 2)[:, i, 0]
+            N, slope, bend = exact_forces(Crossing(robot, bump, v), np.array([minimum.t]), 2)[
+                :, i, 0
+            ]
             scale = np.abs(bend) * minimum.t + abs(N) / minimum.t
             assert abs(slope) <= 1e-9 * scale
             assert bend >= -1e-9 * scale / minimum.t
@@ -154,6 +166,16 @@ def test_the_end_of_the_run_counts():
     assert last.t == falling
     t, N = turning_points(Crossing(robot, BUMP, 5), falling)
     assert (t[0], t[-1]) == (0, falling) and (np.diff(t) > 0).all() and N.shape == (2, len(t))
+
+
+def test_a_long_run_is_worked_on_in_parts_that_join(monkeypatch):
+    crossing = Crossing(Robot(K, K), BUMP, 0.5)
+    t, N = turning_points(crossing)
+    monkeypatch.setattr(least_force, "CHUNK", 100)
+    t_parts, N_parts = turning_points(crossing)
+    assert len(t) > 500 and (np.diff(t_parts) > 0).all()
+    np.testing.assert_allclose(t_parts, t, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(N_parts, N, rtol=0, atol=1e-11)
 
 
 def test_a_flat_road_presses_with_half_the_weight():

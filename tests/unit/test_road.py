@@ -67,13 +67,17 @@ def test_input_at_one_time_has_shape_four():
     assert road_input(ROBOT, BUMP, 1, 0.3).shape == (4,)
 
 
-@pytest.mark.parametrize("road, why", [
-    (lambda x: (np.where(x > 0.5, np.nan, 0), x), r"H not finite at x = 0\.59 m"),
-    (lambda x: (x, np.where(x > 0.5, np.inf, 0)), r"dHdx not finite at x = 0\.59 m"),
-    (lambda x: None, "two arrays, H and dHdx, got None"), (lambda x: (x,), "two arrays"),
-    (lambda x: (0.0, 0.0), r"H of the shape of x, \(6,\), got \(\)"),
-    (lambda x: (x, x[:-1]), r"dHdx of the shape of x, \(6,\), got \(5,\)"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "road, why",
+    [
+        (lambda x: (np.where(x > 0.5, np.nan, 0), x), r"H not finite at x = 0\.59 m"),
+        (lambda x: (x, np.where(x > 0.5, np.inf, 0)), r"dHdx not finite at x = 0\.59 m"),
+        (lambda x: None, "two arrays, H and dHdx, got None"),
+        (lambda x: (x,), "two arrays"),
+        (lambda x: (0.0, 0.0), r"H of the shape of x, \(6,\), got \(\)"),
+        (lambda x: (x, x[:-1]), r"dHdx of the shape of x, \(6,\), got \(5,\)"),
+    ],
+)
 def test_road_that_returns_nonsense_is_refused_with_the_place(road, why):
     with pytest.raises(ValueError, match=f"^road must return .*{why}"):
         road_input(ROBOT, road, 1, [0, 0.25, 0.5])
@@ -84,10 +88,18 @@ def test_road_with_complex_heights_is_refused():
         road_input(ROBOT, lambda x: (x + 0.1j, x), 1, [0, 0.25, 0.5])
 
 
-@pytest.mark.parametrize("name, value", [
-    ("height", np.nan), ("height", np.inf), ("sigma", 0), ("sigma", -0.1), ("sigma", np.nan),
-    ("centre", np.inf), ("centre", None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("height", np.nan),
+        ("height", np.inf),
+        ("sigma", 0),
+        ("sigma", -0.1),
+        ("sigma", np.nan),
+        ("centre", np.inf),
+        ("centre", None),
+    ],
+)
 def test_bump_that_cannot_be_is_refused_by_name(name, value):
     with pytest.raises(ValueError, match=f"^{name} must be .*, got {value!r}$"):
         GaussianBump(**{name: value})

@@ -12,26 +12,45 @@ from suspension.robot import Robot
 quick = settings(derandomize=True, deadline=None, max_examples=60)
 lengths, damping = st.floats(0.02, 2), st.floats(0, 100)
 ROBOTS = st.builds(
-    Robot, k1=st.floats(10, 1e5), k2=st.floats(10, 1e5), m=st.floats(0.1, 100),
-    Izz=st.floats(1e-3, 10), L1=lengths, L2=lengths, c1=damping, c2=damping,
-)  # fmt: skip
+    Robot,
+    k1=st.floats(10, 1e5),
+    k2=st.floats(10, 1e5),
+    m=st.floats(0.1, 100),
+    Izz=st.floats(1e-3, 10),
+    L1=lengths,
+    L2=lengths,
+    c1=damping,
+    c2=damping,
+)
 SYMMETRIC = st.builds(
     lambda k, L, c, **rest: Robot(k, k, L1=L, L2=L, c1=c, c2=c, **rest),
-    k=st.floats(10, 1e5), L=lengths, c=damping, m=st.floats(0.1, 100), Izz=st.floats(1e-3, 10),
-)  # fmt: skip
+    k=st.floats(10, 1e5),
+    L=lengths,
+    c=damping,
+    m=st.floats(0.1, 100),
+    Izz=st.floats(1e-3, 10),
+)
 VECTORS = st.lists(st.floats(-1, 1), min_size=4, max_size=4).map(np.array)
 TABLE_1 = Robot(800, 800)
 
 
 def mirrored(robot):
     """The robot seen from the other side: its rear wheel is the front wheel."""
-    return replace(robot, k1=robot.k2, k2=robot.k1, c1=robot.c2, c2=robot.c1,
-                   L1=robot.L2, L2=robot.L1)  # fmt: skip
+    return replace(
+        robot, k1=robot.k2, k2=robot.k1, c1=robot.c2, c2=robot.c1, L1=robot.L2, L2=robot.L1
+    )
 
 
 def test_defaults_are_table_1():
-    parameters = {"g": 9.81, "m": 1.456, "Izz": 0.012, "L1": 0.107, "L2": 0.107,
-                  "c1": 1.5, "c2": 1.5}  # fmt: skip
+    parameters = {
+        "g": 9.81,
+        "m": 1.456,
+        "Izz": 0.012,
+        "L1": 0.107,
+        "L2": 0.107,
+        "c1": 1.5,
+        "c2": 1.5,
+    }
     assert {name: getattr(TABLE_1, name) for name in parameters} == parameters
 
 
@@ -44,9 +63,13 @@ def test_entries_of_A_and_B_are_the_symbols_of_question_2(robot):
         [0, 1, 0, 0],
         [-(k1 + k2) / m, -(c1 + c2) / m, (k1 * L1 - k2 * L2) / m, (c1 * L1 - c2 * L2) / m],
         [0, 0, 0, 1],
-        [(k1 * L1 - k2 * L2) / Izz, (c1 * L1 - c2 * L2) / Izz,
-         -(k1 * L1**2 + k2 * L2**2) / Izz, -(c1 * L1**2 + c2 * L2**2) / Izz],
-    ]  # fmt: skip
+        [
+            (k1 * L1 - k2 * L2) / Izz,
+            (c1 * L1 - c2 * L2) / Izz,
+            -(k1 * L1**2 + k2 * L2**2) / Izz,
+            -(c1 * L1**2 + c2 * L2**2) / Izz,
+        ],
+    ]
     B = [
         [0, 0, 0, 0],
         [k1 / m, k2 / m, c1 / m, c2 / m],

@@ -85,7 +85,14 @@ def test_no_caller_can_poison_a_cache():
     robot = Robot(800, 800)
     before = margin(robot, BUMP, 1.2)
     crossing = Crossing(robot, BUMP, 1.2)
-    for array in (crossing.lam, crossing.right, *_modes(robot), robot.A, robot.k, robot.eigenvalues):
+    for array in (
+        crossing.lam,
+        crossing.right,
+        *_modes(robot),
+        robot.A,
+        robot.k,
+        robot.eigenvalues,
+    ):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
     for other in (deepcopy(robot), pickle.loads(pickle.dumps(robot))):

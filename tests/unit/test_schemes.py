@@ -22,13 +22,19 @@ RADAU2 = Scheme(
 )
 q = np.sqrt(3) / 6
 GAUSS2 = Scheme(
-    "Gauss-Legendre", 4, a=[[1 / 4, 1 / 4 - q], [1 / 4 + q, 1 / 4]], b=[1 / 2, 1 / 2],
+    "Gauss-Legendre",
+    4,
+    a=[[1 / 4, 1 / 4 - q], [1 / 4 + q, 1 / 4]],
+    b=[1 / 2, 1 / 2],
     c=[1 / 2 - q, 1 / 2 + q],
-)  # fmt: skip
+)
 DORMAND_PRINCE = Scheme(
-    "Dormand-Prince 5", 5, np.pad(integrate.RK45.A, ((0, 0), (0, 1))), integrate.RK45.B,
+    "Dormand-Prince 5",
+    5,
+    np.pad(integrate.RK45.A, ((0, 0), (0, 1))),
+    integrate.RK45.B,
     integrate.RK45.C,
-)  # fmt: skip
+)
 DOP853 = Scheme("Dormand-Prince 8", 8, integrate.DOP853.A, integrate.DOP853.B, integrate.DOP853.C)
 
 SMALL = [EULER, HEUN, KUTTA3, RK4, BACKWARD_EULER, CRANK_NICOLSON, RADAU2, GAUSS2]
@@ -67,8 +73,12 @@ def driven_over_the_bump(tfinal):
     robot, road, v = LOPSIDED, GaussianBump(), 1.2
     truth = integrate.solve_ivp(
         lambda t, w: robot.A @ w + robot.B @ road_input(robot, road, v, t) + robot.e,
-        (0, tfinal), robot.equilibrium, method="DOP853", rtol=1e-13, atol=1e-16,
-    ).y[:, -1]  # fmt: skip
+        (0, tfinal),
+        robot.equilibrium,
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-16,
+    ).y[:, -1]
     return dict(robot=robot, road=road, v=v), truth
 
 
@@ -125,11 +135,22 @@ def test_limits_of_rk4_on_the_axes(eigenvalue, limit):
     assert not RK4.is_stable([eigenvalue], limit * (1 + 1e-12))
 
 
-@pytest.mark.parametrize("scheme, eigenvalue, limit", [
-    (EULER, -4, 0.5), (EULER, 1j, 0), (EULER, -1 + 1j, 1), (HEUN, -4, 0.5), (HEUN, 1j, 0),
-    (KUTTA3, 1j, np.sqrt(3)), (BACKWARD_EULER, 1j, np.inf), (CRANK_NICOLSON, -1, np.inf),
-    (CRANK_NICOLSON, 1j, np.inf), (CRANK_NICOLSON, 0.1 + 1j, 0), (RK4, 0, np.inf),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "scheme, eigenvalue, limit",
+    [
+        (EULER, -4, 0.5),
+        (EULER, 1j, 0),
+        (EULER, -1 + 1j, 1),
+        (HEUN, -4, 0.5),
+        (HEUN, 1j, 0),
+        (KUTTA3, 1j, np.sqrt(3)),
+        (BACKWARD_EULER, 1j, np.inf),
+        (CRANK_NICOLSON, -1, np.inf),
+        (CRANK_NICOLSON, 1j, np.inf),
+        (CRANK_NICOLSON, 0.1 + 1j, 0),
+        (RK4, 0, np.inf),
+    ],
+)
 def test_limits_known_by_hand(scheme, eigenvalue, limit):
     dt = scheme.max_stable_dt([eigenvalue])
     assert type(dt) is float and dt == pytest.approx(limit, rel=1e-14)
@@ -163,8 +184,12 @@ def test_max_stable_dt_is_where_a_brute_force_scan_first_sees_growth(scheme, ang
 
 
 @quick
-@given(k=st.tuples(st.floats(10, 1e5), st.floats(10, 1e5)), m=st.floats(0.1, 1000),
-       Izz=st.floats(1e-3, 10), L=st.tuples(st.floats(0.02, 2), st.floats(0.02, 2)))  # fmt: skip
+@given(
+    k=st.tuples(st.floats(10, 1e5), st.floats(10, 1e5)),
+    m=st.floats(0.1, 1000),
+    Izz=st.floats(1e-3, 10),
+    L=st.tuples(st.floats(0.02, 2), st.floats(0.02, 2)),
+)
 def test_limit_of_any_undamped_robot_is_set_by_its_fastest_mode(k, m, Izz, L):
     robot = Robot(*k, m=m, Izz=Izz, L1=L[0], L2=L[1], c1=0, c2=0)
     limit = 2 * np.sqrt(2) / np.abs(robot.eigenvalues).max()
@@ -250,36 +275,42 @@ def test_a_tableau_is_copied_and_cannot_be_changed():
         scheme.b[0] = 2.0
 
 
-@pytest.mark.parametrize("change, why", [
-    ({"a": [[0, 0], [1, 0], [0, 0]]}, r"^a must have shape \(2, 2\), got \(3, 2\)"),
-    ({"c": [0]}, r"^c must have shape \(2\), got \(1,\)"),
-    ({"b": [[1 / 2, 1 / 2]]}, r"^b must have shape \(n\)"),
-    ({"b": [1 / 2, 1 / 3]}, r"^b must sum to 1, got 0\.83"),
-    ({"c": [0, 1 / 2]}, "^c must be the row sums of a"),
-    ({"a": [[0, 0], [np.nan, 0]]}, "^a must be finite everywhere, got nan"),
-    ({"order": 0}, "^order must be a whole number >= 1, got 0"),
-    ({"order": 1.5}, "^order must be a whole number >= 1, got 1.5"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "change, why",
+    [
+        ({"a": [[0, 0], [1, 0], [0, 0]]}, r"^a must have shape \(2, 2\), got \(3, 2\)"),
+        ({"c": [0]}, r"^c must have shape \(2\), got \(1,\)"),
+        ({"b": [[1 / 2, 1 / 2]]}, r"^b must have shape \(n\)"),
+        ({"b": [1 / 2, 1 / 3]}, r"^b must sum to 1, got 0\.83"),
+        ({"c": [0, 1 / 2]}, "^c must be the row sums of a"),
+        ({"a": [[0, 0], [np.nan, 0]]}, "^a must be finite everywhere, got nan"),
+        ({"order": 0}, "^order must be a whole number >= 1, got 0"),
+        ({"order": 1.5}, "^order must be a whole number >= 1, got 1.5"),
+    ],
+)
 def test_an_inconsistent_tableau_is_refused_by_name(change, why):
     heun = {"name": "Heun", "order": 2, "a": HEUN.a, "b": HEUN.b, "c": HEUN.c}
     with pytest.raises(ValueError, match=why):
         Scheme(**(heun | change))
 
 
-@pytest.mark.parametrize("call, name", [
-    (lambda: RK4.one_step(np.ones((3, 4)), 0.1), "A"),
-    (lambda: RK4.one_step(np.ones(4), 0.1), "A"),
-    (lambda: RK4.one_step([[np.nan]], 0.1), "A"),
-    (lambda: RK4.one_step([[1, 2], [3]], 0.1), "A"),
-    (lambda: RK4.one_step([[1j]], 0.1), "A"),
-    (lambda: RK4.one_step(np.eye(4), 0), "dt"),
-    (lambda: RK4.one_step(np.eye(4), np.nan), "dt"),
-    (lambda: RK4.is_stable([-1], -0.1), "dt"),
-    (lambda: RK4.is_stable([np.nan], 0.1), "eigenvalues"),
-    (lambda: RK4.max_stable_dt([np.inf]), "eigenvalues"),
-    (lambda: RK4.boundary(3), "n"),
-    (lambda: RK4.boundary(10.5), "n"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "call, name",
+    [
+        (lambda: RK4.one_step(np.ones((3, 4)), 0.1), "A"),
+        (lambda: RK4.one_step(np.ones(4), 0.1), "A"),
+        (lambda: RK4.one_step([[np.nan]], 0.1), "A"),
+        (lambda: RK4.one_step([[1, 2], [3]], 0.1), "A"),
+        (lambda: RK4.one_step([[1j]], 0.1), "A"),
+        (lambda: RK4.one_step(np.eye(4), 0), "dt"),
+        (lambda: RK4.one_step(np.eye(4), np.nan), "dt"),
+        (lambda: RK4.is_stable([-1], -0.1), "dt"),
+        (lambda: RK4.is_stable([np.nan], 0.1), "eigenvalues"),
+        (lambda: RK4.max_stable_dt([np.inf]), "eigenvalues"),
+        (lambda: RK4.boundary(3), "n"),
+        (lambda: RK4.boundary(10.5), "n"),
+    ],
+)
 def test_a_bad_argument_is_refused_by_name(call, name):
     with pytest.raises(ValueError, match=f"^{name} must be"):
         call()

@@ -1,4 +1,4 @@
-"""The time loop: what it computes, and that the fast recurrence is the plain one."""
+"""The time loop: what it computes, and that the band solve is the plain loop."""
 
 from dataclasses import replace
 
@@ -15,9 +15,12 @@ from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Schem
 from suspension.simulation import MAX_STEPS, simulate, steps
 
 KUTTA38 = Scheme(  # with abscissae that no other scheme here has
-    "Kutta 3/8", 4, b=[1 / 8, 3 / 8, 3 / 8, 1 / 8], c=[0, 1 / 3, 2 / 3, 1],
+    "Kutta 3/8",
+    4,
+    b=[1 / 8, 3 / 8, 3 / 8, 1 / 8],
+    c=[0, 1 / 3, 2 / 3, 1],
     a=[[0, 0, 0, 0], [1 / 3, 0, 0, 0], [-1 / 3, 1, 0, 0], [1, -1, 1, 0]],
-)  # fmt: skip
+)
 SCHEMES = [EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4, KUTTA38]
 ROBOT = Robot(900, 500, c1=1, c2=3, L1=0.09, L2=0.12)
 BUMP = GaussianBump()
@@ -49,7 +52,7 @@ def step_by_step(robot, road, v, dt, J, scheme, w0=None):
     return y + robot.equilibrium[:, None]
 
 
-# --- the fast recurrence ----------------------------------------------------------------------
+# --- the band solve ---------------------------------------------------------------------------
 
 
 @each_scheme
@@ -110,9 +113,14 @@ def test_steps_known_by_hand(tfinal, dt, J):
     assert steps(tfinal, dt) == J and type(steps(tfinal, dt)) is int
 
 
-@pytest.mark.parametrize("tfinal, dt, count", [
-    (1, 1e-9, r"1e\+09"), (MAX_STEPS + 1, 1, r"1e\+08"), (1e300, 1e-300, "inf"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "tfinal, dt, count",
+    [
+        (1, 1e-9, r"1e\+09"),
+        (MAX_STEPS + 1, 1, r"1e\+08"),
+        (1e300, 1e-300, "inf"),
+    ],
+)
 def test_a_run_of_more_than_a_hundred_million_steps_is_refused_with_the_count(tfinal, dt, count):
     assert steps(MAX_STEPS, 1) == 10**8
     for run in (steps, lambda tfinal, dt: simulate(ROBOT, BUMP, v=1, dt=dt, tfinal=tfinal)):
@@ -193,8 +201,9 @@ def test_superposition(scheme):
 
 @each_scheme
 def test_the_mirror_image_driving_backwards_does_the_same(scheme):
-    image = replace(ROBOT, k1=ROBOT.k2, k2=ROBOT.k1, c1=ROBOT.c2, c2=ROBOT.c1,
-                    L1=ROBOT.L2, L2=ROBOT.L1)  # fmt: skip
+    image = replace(
+        ROBOT, k1=ROBOT.k2, k2=ROBOT.k1, c1=ROBOT.c2, c2=ROBOT.c1, L1=ROBOT.L2, L2=ROBOT.L1
+    )
     flip = np.array([1, 1, -1, -1])[:, None]
     run = simulate(ROBOT, BUMP, v=1.2, dt=1e-3, tfinal=1, scheme=scheme)
     seen = simulate(image, GaussianBump(centre=-0.3), v=-1.2, dt=1e-3, tfinal=1, scheme=scheme)
@@ -207,8 +216,13 @@ def test_the_run_over_the_bump_is_that_of_a_tight_adaptive_solver(v):
     run = simulate(ROBOT, BUMP, v=v, dt=1e-4 / v, tfinal=1.25 / v, scheme=KUTTA38)
     truth = integrate.solve_ivp(
         lambda t, w: ROBOT.A @ w + ROBOT.B @ road_input(ROBOT, BUMP, v, t) + ROBOT.e,
-        (0, run.T[-1]), ROBOT.equilibrium, t_eval=run.T, method="DOP853", rtol=1e-12, atol=1e-15,
-    ).y  # fmt: skip
+        (0, run.T[-1]),
+        ROBOT.equilibrium,
+        t_eval=run.T,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-15,
+    ).y
     assert error(run.W, truth) < 1e-9
 
 
@@ -240,14 +254,26 @@ def test_a_run_starts_where_it_is_told():
     np.testing.assert_array_equal(at_rest.W[:, 0], ROBOT.equilibrium)
 
 
-@pytest.mark.parametrize("name, value", [
-    *[(name, value) for name in ("dt", "tfinal") for value in (0, -1, np.nan, np.inf, None, "1")],
-    *[("v", value) for value in (np.nan, np.inf, None)],
-    ("w0", [0, 0, 0]), ("w0", np.zeros((4, 1))), ("w0", [0, 0, np.nan, 0]), ("w0", "wxyz"),
-    ("w0", np.array([1j, 0, 0, 0])),
-    ("road", lambda x: (x, np.full_like(x, np.nan))), ("road", lambda x: (0.0, 0.0)),
-    ("scheme", "RK4"), ("scheme", None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        *[
+            (name, value)
+            for name in ("dt", "tfinal")
+            for value in (0, -1, np.nan, np.inf, None, "1")
+        ],
+        *[("v", value) for value in (np.nan, np.inf, None)],
+        ("w0", [0, 0, 0]),
+        ("w0", np.zeros((4, 1))),
+        ("w0", [0, 0, np.nan, 0]),
+        ("w0", "wxyz"),
+        ("w0", np.array([1j, 0, 0, 0])),
+        ("road", lambda x: (x, np.full_like(x, np.nan))),
+        ("road", lambda x: (0.0, 0.0)),
+        ("scheme", "RK4"),
+        ("scheme", None),
+    ],
+)
 def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"road": BUMP, "v": 1, "dt": 0.01, "tfinal": 0.1} | {name: value}
     with pytest.raises((ValueError, TypeError), match=f"^{name} must "):

@@ -28,8 +28,9 @@ def alone(robot, road, v, steps, distance=1.25, scheme=RK4):
     return N.min(axis=1), np.abs(N).max()
 
 
-@pytest.mark.parametrize("scheme", [EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4],
-                         ids=lambda scheme: scheme.name)  # fmt: skip
+@pytest.mark.parametrize(
+    "scheme", [EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4], ids=lambda scheme: scheme.name
+)
 @pytest.mark.parametrize("steps", [1, 7, 16, 500, 2000])
 def test_every_case_is_a_run_of_simulate(scheme, steps):
     v = np.array([0.25, 1.2, 10])

@@ -52,8 +52,13 @@ def main(paths):
     """Execute and normalise the files in place."""
     for path in map(Path, paths):
         notebook = nbformat.read(path, as_version=4)
-        client = NotebookClient(notebook, timeout=600, kernel_name="python3", coalesce_streams=True,
-                                resources={"metadata": {"path": str(path.parent)}})
+        client = NotebookClient(
+            notebook,
+            timeout=600,
+            kernel_name="python3",
+            coalesce_streams=True,
+            resources={"metadata": {"path": str(path.parent)}},
+        )
         client.execute()
         nbformat.write(normalise(notebook), path)
         print(path)

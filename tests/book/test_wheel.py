@@ -1,0 +1,70 @@
+"""The package as others get it: a wheel in a clean environment, far from this folder."""
+
+import re
+import subprocess
+import sys
+import sysconfig
+import venv
+
+import pytest
+from helpers import ROOT
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+EXAMPLE = re.search(r"```python\n(.*?)```\s+```text\n(.*?)```", README, re.DOTALL)
+WHERE = "import suspension; print(suspension.__file__)"
+
+
+def run(python, *arguments, cwd):
+    """What a Python prints; an error is shown as it came."""
+    done = subprocess.run([python, *arguments], cwd=cwd, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def python(tmp_path_factory):
+    """The interpreter of an environment with the wheel; the other libraries are borrowed."""
+    folder = tmp_path_factory.mktemp("wheel")
+    options = ["--no-deps", "--no-build-isolation", "--quiet", "--disable-pip-version-check"]
+    pip = ["-m", "pip", "wheel", *options, "--wheel-dir", folder, ROOT]
+    run(sys.executable, *pip, cwd=folder)
+    venv.create(folder / "env", with_pip=False)
+    python = folder / "env" / "bin" / "python"
+    (wheel,) = folder.glob("*.whl")
+    install = ["-m", "pip", "--python", python, "install", "--no-deps", "--quiet", wheel]
+    run(sys.executable, *install, cwd=folder)
+    site = run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder)
+    # The folder's own .pth files are not followed, so the checkout stays out of sight.
+    pointer = folder / "env" / site.strip() / "borrowed.pth"
+    pointer.write_text(sysconfig.get_path("purelib") + "\n")
+    return python
+
+
+def test_the_readme_has_an_example_with_its_output():
+    assert EXAMPLE
+
+
+def test_it_is_the_wheel_that_is_imported(python, tmp_path):
+    assert str(ROOT) not in run(python, "-c", WHERE, cwd=tmp_path)
+
+
+def test_the_readmes_example_prints_what_the_readme_says(python, tmp_path):
+    code, output = EXAMPLE.groups()
+    assert run(python, "-c", code, cwd=tmp_path) == output
+
+
+def test_it_finds_its_data_its_style_and_its_page(python, tmp_path):
+    code = (
+        "import matplotlib.pyplot as plt\n"
+        "from suspension.course import the_robot\n"
+        "from suspension.explorer import Explorer\n"
+        "plt.style.use('suspension.figures.report')\n"
+        "print(round(the_robot().k1), len(Explorer._esm) > 9999, len(Explorer._css) > 999)\n"
+    )
+    k, *found = run(python, "-c", code, cwd=tmp_path).split()
+    assert 750 < int(k) < 850
+    assert found == ["True", "True"]
+
+
+def test_it_says_what_it_reads(python, tmp_path):
+    assert "spring_data.csv" in run(python, "-m", "suspension.springs", cwd=tmp_path)

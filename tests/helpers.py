@@ -1,0 +1,82 @@
+"""What several tests share, and the explorer's benchmark: where things are, a server, a browser."""
+
+import shutil
+import threading
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+PARITY = 1e-9  # how closely the explorer's page follows `simulate`
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+FLAGS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+
+def near(actual, expected, relative):
+    """Assert that two arrays differ by at most `relative` of the largest expected element.
+
+    An element of a history may pass through zero, where no relative error of its own makes sense.
+    """
+    actual, expected = np.asarray(actual), np.asarray(expected)
+    allowed = relative * np.abs(expected).max()
+    np.testing.assert_allclose(actual, expected, rtol=0, atol=allowed)
+
+
+def largest_difference(page, run):
+    """Between all of a page's [W, N], shape (6, J+1), and those of a Trajectory.
+
+    Relative to the largest state, or force, so far if that is above 1.
+    """
+    assert page.shape == (6, len(run.T))
+
+    def worst(rows, ours):
+        so_far = np.maximum.accumulate(np.abs(ours).max(axis=0))
+        return (np.abs(rows - ours) / np.maximum(so_far, 1)).max()
+
+    return max(worst(page[:4], run.W), worst(page[4:], run.N))
+
+
+class QuietHandler(SimpleHTTPRequestHandler):
+    """A file server that keeps the terminal clean."""
+
+    def log_message(self, *args):
+        """Say nothing."""
+
+
+@contextmanager
+def serve_files(folder):
+    """Serve a folder on this machine; its address, ending in a slash."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=folder))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}/"
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def find_chromium():
+    """Path of the system's Chromium, or None."""
+    return next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+@contextmanager
+def start_chromium(path):
+    """A headless Chromium, driven by Playwright."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+        try:
+            yield browser
+        finally:
+            browser.close()

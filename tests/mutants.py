@@ -1,0 +1,224 @@
+"""Do the tests notice? Changes the core in one place at a time and runs its unit tests.
+
+    python tests/mutants.py [MODULE ...] [--sample N] [--jobs N]
+
+A mutant is a module with one operator, comparison, number or condition changed. It is killed if a
+test of that module fails or takes far too long; the survivors are printed, each with its line.
+The files are left alone: the mutant is compiled from a changed syntax tree, in a process of its
+own, and handed to whoever imports the module. (Libraries do not fit: mutmut skips decorated
+functions, which all matrices of a robot are; cosmic-ray writes into the tree and starts Python for
+every mutant.)
+
+Survivors that change nothing are listed in `EQUIVALENT` with the reason.
+"""
+
+import argparse
+import ast
+import contextlib
+import copy
+import importlib.abc
+import importlib.util
+import os
+import random
+import signal
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+MODULES = "robot road schemes forces simulation exact least_force critical".split()
+SLOWEST = 5  # times as long as without a change, then a mutant is stopped, and killed
+OPERATORS = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.Pow: ast.Mult,
+    ast.MatMult: ast.Mult,
+    ast.FloorDiv: ast.Mult,
+    ast.Mod: ast.Mult,
+    ast.BitAnd: ast.BitOr,
+    ast.BitOr: ast.BitAnd,
+    ast.Lt: ast.LtE,
+    ast.LtE: ast.Lt,
+    ast.Gt: ast.GtE,
+    ast.GtE: ast.Gt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+    ast.And: ast.Or,
+    ast.Or: ast.And,
+}
+# Module, what stood there, what stands there now, and why no test can see it.
+EQUIVALENT = {
+    (
+        "robot",
+        "9",
+        "10",
+    ): "modes as slow as each other are told apart by more digits than they have",
+}
+
+
+class Mutant(NamedTuple):
+    """A change of a module: its line, what stood there, and what stands there now."""
+
+    module: str
+    line: int
+    before: str
+    after: str
+    tree: ast.Module
+
+
+def mutants(module):
+    """Every mutant of a module."""
+    path = ROOT / "suspension" / f"{module}.py"
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    count = sum(1 for _ in ast.walk(tree))
+    for place in range(count):
+        for change in changes(list(ast.walk(tree))[place]):
+            changed = copy.deepcopy(tree)
+            node = list(ast.walk(changed))[place]
+            before = ast.unparse(node)
+            line = getattr(node, "lineno", 0)
+            change(node)
+            yield Mutant(module, line, before, ast.unparse(node), changed)
+
+
+def changes(node):
+    """Functions that change a node in place, each in one way."""
+    if isinstance(node, ast.BinOp | ast.AugAssign | ast.BoolOp):
+        if type(node.op) in OPERATORS:
+            yield lambda node: setattr(node, "op", OPERATORS[type(node.op)]())
+    elif isinstance(node, ast.Compare):
+        if type(node.ops[0]) in OPERATORS:
+            yield lambda node: node.ops.__setitem__(0, OPERATORS[type(node.ops[0])]())
+    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not | ast.Invert):
+        yield lambda node: setattr(node, "op", ast.UAdd() if is_minus(node) else ast.Not())
+    elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
+        yield lambda node: setattr(node, "value", node.value + 1)
+        if node.value:
+            yield lambda node: setattr(node, "value", node.value * 1.5)
+    elif isinstance(node, ast.Constant) and isinstance(node.value, bool):
+        yield lambda node: setattr(node, "value", not node.value)
+    elif isinstance(node, ast.If | ast.While | ast.IfExp):
+        yield lambda node: setattr(node, "test", ast.Constant(False))
+
+
+def is_minus(node):
+    """Whether the operator is a minus sign; ``not x`` and ``~x`` become ``not not x``."""
+    return isinstance(node.op, ast.USub)
+
+
+class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Finds the mutant instead of the module's file."""
+
+    def __init__(self, mutant):
+        self.name = f"suspension.{mutant.module}"
+        self.path = ROOT / "suspension" / f"{mutant.module}.py"
+        self.code = compile(ast.fix_missing_locations(mutant.tree), self.path, "exec")
+
+    def pytest_sessionstart(self):
+        """Stand before pytest's own importer, which takes modules with examples for tests."""
+        sys.meta_path.insert(0, self)
+
+    def find_spec(self, name, path=None, target=None):
+        """A spec for the mutant's module alone."""
+        if name != self.name:
+            return None
+        return importlib.util.spec_from_file_location(name, self.path, loader=self)
+
+    def exec_module(self, module):
+        """Run the changed code."""
+        exec(self.code, module.__dict__)
+
+
+def survives(mutant, seconds):
+    """Whether the module's tests pass in a child process, within that time."""
+    child = os.fork()
+    if not child:
+        with contextlib.suppress(BaseException):
+            os.setsid()  # so that it can be stopped with all that it started
+            silence = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(silence, 1)
+            os.dup2(silence, 2)
+            os._exit(run_tests(mutant))
+        os._exit(1)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            return os.waitstatus_to_exitcode(status) == 0
+        time.sleep(0.02)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    return False
+
+
+def run_tests(mutant):
+    """pytest's exit code for the tests, and the examples, of a module."""
+    import pytest
+
+    plugins = [Changed(mutant)] if mutant.tree else []
+    tests = [f"tests/unit/test_{mutant.module}.py", f"suspension/{mutant.module}.py"]
+    plain = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:nbval", "-p", "no:randomly"]
+    return pytest.main(
+        [*plain, "-o", "addopts=--doctest-modules --import-mode=importlib", *tests], plugins
+    )
+
+
+def examine(module, sample, jobs):
+    """Run a module's mutants, print the survivors; return how many there were of each."""
+    found = list(mutants(module))
+    if sample and sample < len(found):
+        found = random.Random(2086).sample(found, sample)
+        found.sort(key=lambda mutant: mutant.line)
+    start = time.monotonic()
+    if not survives(Mutant(module, 0, "", "", None), 600):
+        sys.exit(f"{module}: its tests fail as it is")
+    usual = time.monotonic() - start
+    print(f"{module}: {len(found)} mutants, tests take {usual:.1f} s", flush=True)
+    with ThreadPoolExecutor(jobs) as pool:
+        alive = list(pool.map(lambda mutant: survives(mutant, 5 + SLOWEST * jobs * usual), found))
+    living = [mutant for mutant, lives in zip(found, alive, strict=True) if lives]
+    unexplained = [mutant for mutant in living if not reason(mutant)]
+    for mutant in unexplained:
+        print(f"  line {mutant.line}: {mutant.before}  ->  {mutant.after}")
+    minutes = (time.monotonic() - start) / 60
+    print(
+        f"  killed {len(found) - len(living)} of {len(found)}, {len(living) - len(unexplained)} "
+        f"change nothing, {len(unexplained)} survive ({minutes:.1f} min)",
+        flush=True,
+    )
+    return len(found), len(unexplained)
+
+
+def reason(mutant):
+    """Why a mutant changes nothing, or None."""
+    return EQUIVALENT.get((mutant.module, mutant.before, mutant.after))
+
+
+def main():
+    """Examine the modules that are named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("modules", nargs="*", metavar="MODULE", help=", ".join(MODULES))
+    parser.add_argument("--sample", type=int, help="so many mutants of each, always the same")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="at the same time")
+    options = parser.parse_args()
+    # What is loaded here need not be loaded again for every mutant; nothing of the package is.
+    os.chdir(ROOT)
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    for library in ("hypothesis", "numpy", "pytest", "scipy.integrate", "scipy.optimize"):
+        importlib.import_module(library)
+    counts = [
+        examine(module, options.sample, options.jobs) for module in options.modules or MODULES
+    ]
+    total, left = map(sum, zip(*counts, strict=True))
+    print(f"{total} mutants, {left} survive unexplained")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,590 @@
+"""Bad input is refused by name, at once, at every public door: one table for all of them.
+
+A row is a function, arguments that it takes, and for each argument what it must refuse: with
+TypeError a thing of the wrong kind (a robot that is no robot), with ValueError any other, and
+always with a message that names the argument.
+"""
+
+import re
+import resource
+import signal
+import sys
+from contextlib import contextmanager
+from decimal import Decimal
+from fractions import Fraction
+from typing import NamedTuple
+
+import matplotlib
+import numpy as np
+import pandas as pd
+import pytest
+from helpers import ROOT
+from matplotlib import pyplot as plt
+
+import suspension
+from suspension import contact, course, exact, springs
+from suspension.animation import animate_robot
+from suspension.explorer import explore
+from suspension.sweep import sweep
+from suspension.travel import travel
+
+matplotlib.use("Agg")
+
+SECONDS = 2  # to refuse; mostly waiting for a busy machine
+GIGABYTES = 1.5  # of addresses, not of memory
+ENOUGH = 30  # bad values for every function
+ROBOT = suspension.Robot(800, 800)
+BUMP = suspension.GaussianBump()
+RK4 = suspension.RK4
+DATA = springs.load_spring_data(ROOT / "data" / "spring_data.csv")
+FIT = springs.fit_spring(DATA)
+T = np.linspace(0, 1, 11)
+W = np.tile(ROBOT.equilibrium[:, None], 11)
+FORCES = np.ones((2, 11))
+
+
+class Thing:
+    """Nothing that any function could use."""
+
+
+NOT_A_NUMBER = [
+    *(np.nan, np.inf, -np.inf, np.float64("nan"), Decimal("NaN"), 10**400),
+    *(None, "1.5", "three", "", b"1", np.array("1.5"), np.array(None)),
+    *(1j, complex(1, 0), np.complex128(1)),
+    *(np.ma.masked, np.ma.array(1.0, mask=True)),
+    *([], [1.0], [1.0, 2.0], (1.0, 2.0), np.array([1.0]), np.array([1.0, 2.0]), np.eye(2)),
+    *(np.datetime64("2026-01-01"), np.timedelta64(1, "s")),
+    *({}, {1.0}, Thing(), Thing, len, slice(3)),
+]
+NEGATIVE = [-1, -1.5, -1e-300, np.float32(-2), Fraction(-1, 3), -np.finfo(float).max]
+ZERO = [0, 0.0, -0.0, False]
+NOT_NONNEGATIVE = NOT_A_NUMBER + NEGATIVE
+NOT_POSITIVE = NOT_NONNEGATIVE + ZERO
+NOT_WHOLE = [*NOT_POSITIVE, 0.5, 1.5, 1 + 1e-9, Fraction(3, 2)]
+NOT_AN_OBJECT = [
+    *(None, 3, 2.5, True, np.nan, 1j, Decimal(1), "robot", b"robot"),
+    *([], {}, (1, 2), range(3), np.zeros(4), np.eye(4), np.ma.masked, pd.Series([1.0])),
+    *(Thing(), object()),
+]
+NOT_A_ROBOT = [*NOT_AN_OBJECT, Thing, suspension.Robot, BUMP, RK4, len]
+NOT_A_BUMP = [*NOT_AN_OBJECT, Thing, suspension.GaussianBump, ROBOT, suspension.FlatRoad(), len]
+NOT_A_SCHEME = [*NOT_AN_OBJECT, Thing, suspension.Scheme, "RK4", ROBOT, len]
+NOT_A_TABLE = [*NOT_AN_OBJECT, Thing, ROBOT, DATA["force"], np.ones((5, 2)), len]
+NO_ROADS = [
+    lambda x: None,
+    lambda x: 0.0,
+    lambda x: x,
+    lambda x: (x, x, x),
+    lambda x: (x,),
+    lambda x: (0.0, 0.0),
+    lambda x: (x[:0], x[:0]),
+    lambda x: (x, np.append(x, 0)),
+    lambda x: (x * np.nan, x),
+    lambda x: (x, np.full_like(x, np.inf)),
+    lambda x: (x + 1j, x),
+    lambda x: (x, x.astype(str)),
+    lambda x: (x, np.full(x.shape, None)),
+    lambda x: "HH",
+    lambda x: (np.ma.array(x, mask=True), x),
+    len,
+]
+
+
+def but(values, *allowed):
+    """The list of values without those that this argument may be (the very objects)."""
+    return [value for value in values if not any(value is other for other in allowed)]
+
+
+def not_an_array(good, complex_too=False):
+    """What cannot be `good` with all its shapes and sizes, because it does not hold numbers."""
+    good = np.asarray(good)
+    values = [
+        *(None, "1.5", "", b"1", {}, {1.0}, Thing(), Thing, len, slice(3), object()),
+        *(np.datetime64("2026-01-01"), np.timedelta64(1, "s"), Decimal(1), [Decimal(1)] * 4),
+        *(good.astype(str), good.astype(bytes), good.astype(object), good.astype("M8[s]")),
+        *(np.full(good.shape, None), pd.Series(["1.5"]), [None], ["1", "2"], [[1], [2, 3]]),
+        *(np.ma.masked, np.ma.array(good, mask=True), np.ma.masked_equal(good, good.flat[0])),
+        *([10**400] * 4, np.zeros(4, dtype=[("x", float)]), (x for x in "1234"), iter([1.0])),
+    ]
+    return values if complex_too else [*values, 1j, good.astype(complex), good + 1j]
+
+
+def not_finite(good):
+    """What cannot be `good` because it does not hold finite numbers, or has other dimensions."""
+    good = np.asarray(good)
+    last = np.arange(good.size).reshape(good.shape) == good.size - 1
+    return [
+        *not_an_array(good),
+        *(np.where(last, bad, good) for bad in (np.nan, np.inf, -np.inf)),
+        *(1.5, good[..., None], good[None], np.stack([good, good])),
+    ]
+
+
+def not_like(good):
+    """What cannot be `good`, an array of finite numbers and of this shape."""
+    good = np.asarray(good)
+    return [*not_finite(good), [], good[..., :-1], np.concatenate([good, good], axis=-1)]
+
+
+class Row(NamedTuple):
+    """A function by its name, arguments that it takes, and what each must refuse, and how."""
+
+    name: str
+    function: callable
+    good: dict
+    values: dict = {}  # noqa: RUF012
+    kinds: dict = {}  # noqa: RUF012
+    also: tuple = ()  # what a message may name instead: a column, a file
+
+
+DRIVE = {"robot": ROBOT, "road": BUMP, "v": 1.2}
+CROSS = {"robot": ROBOT, "bump": BUMP, "v": 1.2}
+NO_DRIVE = {"robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT}
+NO_CROSSING = {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP}
+TOO_MANY_STEPS = 1e-12
+TABLE = [
+    Row(
+        "Robot",
+        suspension.Robot,
+        {"k1": 8, "k2": 8, "g": 9.8, "m": 1, "Izz": 1, "L1": 1, "L2": 1, "c1": 1, "c2": 1},
+        dict.fromkeys(["k1", "k2", "m", "Izz", "L1", "L2"], NOT_POSITIVE)
+        | dict.fromkeys(["g", "c1", "c2"], NOT_NONNEGATIVE),
+    ),
+    Row(
+        "GaussianBump",
+        suspension.GaussianBump,
+        {"height": -0.02, "sigma": 0.03, "centre": 0.3},
+        {"height": NOT_A_NUMBER, "sigma": NOT_POSITIVE, "centre": NOT_A_NUMBER},
+    ),
+    Row("GaussianBump()", BUMP, {"x": T}, {"x": not_an_array(T)}),
+    Row("FlatRoad()", suspension.FlatRoad(), {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "Scheme",
+        suspension.Scheme,
+        {"name": "Heun", "order": 2, "a": [[0, 0], [1, 0]], "b": [0.5, 0.5], "c": [0, 1]},
+        {
+            "order": NOT_WHOLE,
+            "a": not_like([[0.0, 0.0], [1.0, 0.0]]),
+            "b": [*not_finite([0.5, 0.5]), [0.5, 0.6], [1, 1]],
+            "c": [*not_like([0.0, 1.0]), [0, 0.5], [1, 1]],
+        },
+        {"name": [None, 3, b"Heun", [], Thing()]},
+    ),
+    Row(
+        "stability_function",
+        RK4.stability_function,
+        {"z": [-1 + 1j, 0]},
+        {"z": not_an_array([-1.0, 0.0], complex_too=True)},
+    ),
+    Row(
+        "one_step",
+        RK4.one_step,
+        {"A": ROBOT.A, "dt": 0.01},
+        {
+            "A": [*not_an_array(ROBOT.A), ROBOT.A * np.nan, 1.5, [], [1.0], ROBOT.A[1:]],
+            "dt": NOT_POSITIVE,
+        },
+    ),
+    Row(
+        "is_stable",
+        RK4.is_stable,
+        {"eigenvalues": ROBOT.eigenvalues, "dt": 0.01},
+        {
+            "eigenvalues": [*not_an_array([1.0], complex_too=True), [np.nan], [-np.inf, -1]],
+            "dt": NOT_POSITIVE,
+        },
+    ),
+    Row(
+        "max_stable_dt",
+        RK4.max_stable_dt,
+        {"eigenvalues": ROBOT.eigenvalues},
+        {"eigenvalues": [*not_an_array([1.0], complex_too=True), [np.nan], [-np.inf, -1]]},
+    ),
+    Row("boundary", RK4.boundary, {"n": 16}, {"n": [*NOT_WHOLE, 1, 2, 3, 10**12]}),
+    Row(
+        "simulate",
+        suspension.simulate,
+        DRIVE | {"dt": 0.01, "tfinal": 0.1, "scheme": RK4, "w0": np.zeros(4)},
+        {
+            "road": NO_ROADS,
+            "v": NOT_A_NUMBER,
+            "dt": [*NOT_POSITIVE, TOO_MANY_STEPS, 5e-324],
+            "tfinal": [*NOT_POSITIVE, 1e300],
+            "w0": but(not_like(np.zeros(4)), None),
+        },
+        NO_DRIVE | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "fly",
+        suspension.fly,
+        DRIVE
+        | {"tfinal": 0.1, "w0": np.zeros(4), "wheel": "relaxes", "resolution": 0.01}
+        | {"samples": 11},
+        {
+            "road": NO_ROADS,
+            "v": [*NOT_A_NUMBER, 1e12, -1e300],
+            "tfinal": [*NOT_POSITIVE, 1e12, 1e300],
+            "w0": but(not_like(np.zeros(4)), None),
+            "wheel": [*NOT_A_NUMBER, "", "follow", "Follows", b"follows", ["follows"]],
+            "resolution": [*but(NOT_POSITIVE, None), TOO_MANY_STEPS],
+            "samples": [*NOT_WHOLE, 1, 10**12],
+        },
+        NO_DRIVE,
+    ),
+    Row(
+        "flat_ground",
+        exact.flat_ground,
+        {"robot": ROBOT, "w0": np.zeros(4), "t": T},
+        {"w0": not_like(np.zeros(4)), "t": [*not_an_array(T), -T - 1, [np.nan], [np.inf]]},
+        {"robot": NOT_A_ROBOT},
+    ),
+    Row(
+        "over_bump",
+        suspension.over_bump,
+        CROSS | {"t": T, "w0": np.zeros(4)},
+        {
+            "v": NOT_A_NUMBER,
+            "t": [*not_an_array(T), -T - 1, [np.nan], [np.inf]],
+            "w0": but(not_like(np.zeros(4)), None),
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "normal_forces",
+        contact.normal_forces,
+        DRIVE | {"T": T, "W": W},
+        {
+            "road": NO_ROADS,
+            "v": NOT_A_NUMBER,
+            "T": not_finite(T),
+            "W": [*not_an_array(W), W[:3], T, W[:, 1:]],
+        },
+        NO_DRIVE,
+    ),
+    Row(
+        "first_loss",
+        contact.first_loss,
+        {"T": T, "N": FORCES},
+        {
+            "T": not_finite(T),
+            "N": [*not_an_array(FORCES), FORCES * np.nan, FORCES[:1], FORCES.T, 1, []],
+        },
+    ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            CROSS | {"tfinal": 1.0},
+            {"v": NOT_POSITIVE, "tfinal": [*but(NOT_POSITIVE, None), 1e12, 1e300]},
+            NO_CROSSING,
+        )
+        for function in (suspension.margin, contact.minima, contact.exact_loss)
+    ),
+    Row(
+        "critical_speeds",
+        suspension.critical_speeds,
+        {"robot": ROBOT, "bump": BUMP, "vmin": 7.0, "vmax": 9.0},
+        {"vmin": [*NOT_POSITIVE, 9, 10, 1e-300], "vmax": [*NOT_POSITIVE, 7, 6, 1e300]},
+        NO_CROSSING,
+    ),
+    Row(
+        "critical_stiffness",
+        contact.critical_stiffness,
+        CROSS | {"kmin": 500, "kmax": 600},
+        {
+            "v": NOT_POSITIVE,
+            "kmin": [*NOT_POSITIVE, 600, 700, 1e-300],
+            "kmax": [*NOT_POSITIVE, 500, 400, 1e30],
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "sensitivity",
+        lambda robot, bump, v, names: contact.sensitivity(robot, bump, v, names),
+        CROSS | {"names": "k1"},
+        {"v": NOT_POSITIVE, "names": [*NOT_A_NUMBER, "k", "V", "height", ["k1"]]},
+        NO_CROSSING,
+    ),
+    Row(
+        "sweep",
+        sweep,
+        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10, "distance": 1.0}
+        | {"scheme": RK4},
+        {
+            "robots": [[ROBOT] * 3],
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
+            "steps": [*NOT_WHOLE, 10**12, 10**9],
+            "distance": NOT_POSITIVE,
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+        | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "travel",
+        travel,
+        CROSS | {"samples": 11},
+        {"v": NOT_POSITIVE, "samples": [*NOT_WHOLE, 10**12]},
+        NO_CROSSING,
+    ),
+    Row(
+        "load_spring_data",
+        springs.load_spring_data,
+        {"path": ROOT / "data" / "spring_data.csv"},
+        {
+            "path": [
+                *but(NOT_A_NUMBER, None),
+                *("nowhere.csv", "nowhere.mat", "nowhere", "\0", "x" * 300, 0, -1, True),
+                *(ROOT, ROOT / "data", ROOT / "README.md", ROOT / "pyproject.toml"),
+            ]
+        },
+        also=("README.md", "pyproject.toml"),
+    ),
+    Row(
+        "fit_spring",
+        springs.fit_spring,
+        {"data": DATA, "delta_max": 0.0165},
+        {
+            "data": [DATA[:0], DATA[:2], DATA * np.nan, DATA.iloc[:, :1], DATA.astype(str)],
+            "delta_max": NOT_POSITIVE,
+        },
+        {"data": NOT_A_TABLE},
+        also=springs.COLUMNS,
+    ),
+    Row(
+        "SpringFit.intervals",
+        FIT.intervals,
+        {"level": 0.9, "method": "bonferroni", "p": 2},
+        {
+            "level": [*NOT_POSITIVE, 1, 1.0, 2, 95],
+            "method": [*NOT_A_NUMBER, "Scheffe", "t", b"scheffe", ["scheffe"]],
+            "p": [*NOT_WHOLE, 4, "3", [3]],
+        },
+    ),
+    Row(
+        "SpringFit.stiffness_interval",
+        FIT.stiffness_interval,
+        {"level": 0.9},
+        {"level": [*NOT_POSITIVE, 1, 1.0, 2, 95]},
+    ),
+    Row("Hgauss", course.Hgauss, {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "gfunc_linear",
+        course.gfunc_linear,
+        {"w": np.zeros(4), "t": 0.1, "v": 1.2},
+        {"w": not_like(np.zeros(4)), "t": NOT_A_NUMBER, "v": NOT_A_NUMBER},
+    ),
+    Row(
+        "make_gfunc",
+        lambda robot, road: course.make_gfunc(robot, road)(np.zeros(4), 0.1, 1.2),
+        {"robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        NO_DRIVE,
+    ),
+    Row(
+        "make_forcing",
+        lambda robot, road, v: course.make_forcing(robot, road, v)(0.1),
+        DRIVE,
+        {"road": NO_ROADS, "v": NOT_A_NUMBER},
+        NO_DRIVE,
+    ),
+    Row(
+        "course.RK4",
+        course.RK4,
+        {"gfunc_handle": lambda w, t, v: -w, "w0": [1.0, 2.0], "deltat": 0.1, "tfinal": 1}
+        | {"v": None},
+        {
+            "gfunc_handle": [
+                lambda w, t, v: None,
+                lambda w, t, v: "ab",
+                lambda w, t, v: (np.append(w, 0), 0, 0),
+                lambda w, t, v: w * 1j,
+                lambda w, t, v: [None, None],
+            ],
+            "w0": not_finite(np.zeros(2)),
+            "deltat": [*NOT_POSITIVE, TOO_MANY_STEPS],
+            "tfinal": [*NOT_POSITIVE, 1e300],
+        },
+        {"gfunc_handle": NOT_AN_OBJECT},
+    ),
+    Row(
+        "course.crank_nicolson",
+        course.crank_nicolson,
+        {"A": -np.eye(2), "F": lambda t: np.zeros(2), "w0": [1.0, 2.0], "deltat": 0.1}
+        | {"tfinal": 1},
+        {
+            "A": [*not_like(np.eye(2)), np.eye(3), [1.0, 2.0]],
+            "F": [
+                lambda t: None,
+                lambda t: "ab",
+                lambda t: np.zeros(3),
+                lambda t: np.array([1j, 1j]),
+                lambda t: [None, None],
+                lambda t: np.array([np.nan, 1]),
+            ],
+            "w0": not_finite(np.zeros(2)),
+            "deltat": [*NOT_POSITIVE, TOO_MANY_STEPS],
+            "tfinal": [*NOT_POSITIVE, 1e300],
+        },
+        {"F": NOT_AN_OBJECT},
+    ),
+    Row(
+        "animate_robot",
+        animate_robot,
+        {"W": W, "T": T, "v": 1.2, "steps_per_frame": 2, "robot": ROBOT, "road": BUMP},
+        {
+            "W": not_like(W),
+            "T": not_finite(T),
+            "v": NOT_A_NUMBER,
+            "steps_per_frame": NOT_WHOLE,
+            "road": NO_ROADS,
+        },
+        {"robot": but(NOT_A_ROBOT, None), "road": but(NOT_AN_OBJECT, None)},
+    ),
+    Row(
+        "explore",
+        explore,
+        DRIVE | {"dt": 0.01, "k": 800, "scheme": RK4, "time": 0.5, "view": "robot"},
+        {
+            "road": NO_ROADS,
+            "v": [*NOT_POSITIVE, 0.01, 100],
+            "dt": [*NOT_POSITIVE, 0.003],
+            "k": but(NOT_POSITIVE, None),
+            "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
+            "view": [*NOT_A_NUMBER, "Forces", "all", ["robot"]],
+        },
+        NO_DRIVE,
+    ),
+]
+# Arguments that are fine one by one, and together would take for ever, or lose all digits.
+STIFF, UNEQUAL = suspension.Robot(1e6, 1e6), suspension.Robot(1e-3, 1e6)
+EXTREMES = [
+    (suspension.margin, CROSS | {"tfinal": 1e5}),
+    (suspension.margin, CROSS | {"robot": STIFF, "v": 0.001}),
+    (suspension.margin, CROSS | {"robot": UNEQUAL, "v": 0.001}),
+    (suspension.margin, CROSS | {"v": 5e-324}),
+    (suspension.fly, DRIVE | {"robot": UNEQUAL, "v": 0.001, "tfinal": 1250}),
+    (suspension.fly, DRIVE | {"v": 1e12, "tfinal": 1e-12}),
+    *(
+        (suspension.critical_speeds, {"robot": ROBOT, "bump": bump, "vmin": low, "vmax": high})
+        for bump, low, high in [
+            (suspension.GaussianBump(sigma=1e-3), 0.1, 30),
+            (suspension.GaussianBump(sigma=1e-4), 0.1, 30),
+            (suspension.GaussianBump(sigma=1e-9), 0.1, 30),
+            (BUMP, 1e-3, 1e3),
+        ]
+    ),
+    *(
+        (function, CROSS | {"robot": suspension.Robot(800, 800, **extreme)} | more)
+        for function, more in [(suspension.margin, {}), (suspension.over_bump, {"t": T})]
+        for extreme in [{"c1": 1e200}, {"c1": 1e10, "c2": 1e10}, {"m": 1e-300}]
+    ),
+    (suspension.margin, CROSS | {"bump": suspension.GaussianBump(sigma=1e-300)}),
+    (suspension.over_bump, CROSS | {"bump": suspension.GaussianBump(sigma=1e-300), "t": T}),
+]
+CASES = [
+    pytest.param(
+        row,
+        argument,
+        TypeError if argument_is_thing else ValueError,
+        values,
+        id=f"{row.name}-{argument}{'-kind' if argument_is_thing else ''}",
+    )
+    for row in TABLE
+    for argument_is_thing, table in ((False, row.values), (True, row.kinds))
+    for argument, values in table.items()
+]
+
+
+class TooLong(BaseException):
+    """The function went on for longer than anybody would wait to be told of a mistake."""
+
+
+@contextmanager
+def limits(seconds, gigabytes):
+    """Stop what takes longer; let fail what asks for more memory (where the system can do it)."""
+
+    def stop(*_):
+        raise TooLong
+
+    before = signal.signal(signal.SIGALRM, stop)
+    memory = resource.getrlimit(resource.RLIMIT_AS)
+    if sys.platform == "linux":
+        pages = int(open("/proc/self/statm").read().split()[0])
+        most = pages * resource.getpagesize() + int(gigabytes * 2**30)
+        resource.setrlimit(resource.RLIMIT_AS, (most, memory[1]))
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+        resource.setrlimit(resource.RLIMIT_AS, memory)
+
+
+def complaint(row, argument, value, expected):
+    """What is wrong with how the function takes the bad value, or None."""
+    try:
+        with limits(SECONDS, GIGABYTES):
+            result = row.function(**row.good | {argument: value})
+    except expected as error:
+        if type(error) is not expected:
+            return f"{type(error).__name__}: {str(error)[:100]}"
+        if not re.search("|".join(rf"\b{name}\b" for name in (argument, *row.also)), str(error)):
+            return f"not named: {str(error)[:120]}"
+        if len(str(error)) > 1000:
+            return f"a message of {len(str(error))} characters"
+        return None
+    except TooLong:
+        return f"takes more than {SECONDS} s"
+    except Exception as error:
+        return f"{type(error).__name__}: {str(error)[:100]}"
+    return f"accepted: {str(result)[:60]!r}"
+
+
+@pytest.mark.parametrize("row", TABLE, ids=lambda row: row.name)
+def test_the_good_arguments_are_taken(row):
+    row.function(**row.good)
+    plt.close("all")
+
+
+@pytest.mark.parametrize("row, argument, expected, values", CASES)
+def test_a_bad_value_is_refused_by_name(row, argument, expected, values):
+    found = [(value, complaint(row, argument, value, expected)) for value in values]
+    plt.close("all")
+    wrong = [f"{argument}={short(value)}: {what}" for value, what in found if what]
+    assert not wrong, "\n".join([row.name, *wrong])
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+@pytest.mark.parametrize("function, arguments", EXTREMES)
+def test_an_extreme_is_refused_by_name_or_gives_finite_numbers_soon(function, arguments):
+    with limits(SECONDS, GIGABYTES):
+        try:
+            assert np.isfinite(function(**arguments)).all()
+        except ValueError as error:
+            assert any(re.search(rf"\b{name}\b", str(error)) for name in arguments)
+
+
+def short(value):
+    """A value in a few characters."""
+    text = " ".join(repr(value).split())
+    return text if len(text) < 60 else text[:57] + "..."
+
+
+def test_every_function_is_offered_enough():
+    for row in TABLE:
+        offered = [*row.values.values(), *row.kinds.values()]
+        assert sum(map(len, offered)) >= ENOUGH, row.name
+
+
+def test_every_name_at_the_front_door_is_in_the_table():
+    schemes = {"EULER", "BACKWARD_EULER", "CRANK_NICOLSON", "RK4"}
+    assert set(suspension.__all__) - schemes - {"__version__"} <= names() | {"FlatRoad"}
+    assert set(contact.__all__) - {"WHEEL", "Loss", "Minimum"} <= names()
+    assert set(course.__all__) - {"the_robot"} <= names()
+
+
+def names():
+    """The names in the table, without the module before them."""
+    return {row.name.rsplit(".")[-1] for row in TABLE}

@@ -1,0 +1,400 @@
+"""Every figure draws what it is given, where it is told to, with its units, and shows nothing."""
+
+import re
+from itertools import pairwise
+
+import matplotlib
+import numpy as np
+import pytest
+from helpers import ROOT, near
+from matplotlib import pyplot as plt
+
+import suspension.figures
+from suspension.figures import (
+    film,
+    plot_all_forces,
+    plot_confidence_region,
+    plot_errors,
+    plot_fit,
+    plot_flight,
+    plot_forces,
+    plot_growth,
+    plot_heave,
+    plot_margin,
+    plot_margin_map,
+    plot_missed_dip,
+    plot_near_zero,
+    plot_residuals,
+    plot_seen_mode,
+    plot_sensitivities,
+    plot_stability,
+    plot_travel,
+)
+from suspension.flight import fly
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+from suspension.schemes import CRANK_NICOLSON, EULER, RK4
+from suspension.simulation import simulate
+from suspension.springs import fit_spring, load_spring_data
+
+matplotlib.use("Agg")
+pytestmark = pytest.mark.filterwarnings("error")
+
+ROBOT = Robot(800, 800)
+BUMP = GaussianBump()
+DATA = load_spring_data(ROOT / "data" / "spring_data.csv")
+FIT = fit_spring(DATA)
+KEPT, LOST = (simulate(ROBOT, BUMP, v=v, dt=0.001, tfinal=1.25 / v) for v in (0.25, 1.2))
+FLIGHT = fly(ROBOT, BUMP, v=5, tfinal=0.25)
+LINEAR = simulate(ROBOT, BUMP, v=5, dt=0.0001, tfinal=0.25)
+V, K = np.geomspace(0.1, 30, 60), np.linspace(300, 1500, 20)
+FORCES = np.array([7 - 10 * np.sin(np.log(V)), 6 + np.cos(np.log(V))])
+CRITICAL = [0.5, 8.0]
+DTS = np.geomspace(1e-3, 0.1, 30)
+SEEN = {"RK4": np.full(30, -2 + 33j), "Euler": np.linspace(-1, 1, 30) + 30j}
+ERRORS = {"Euler": DTS, "RK4": DTS**4}
+HEAVE = {1.2: 0.01 * np.sin(V), 5.0: 0.01 * np.cos(V)}
+SENSITIVE = {"$k$": [1, 2], "$c$": [-1, 0.5], "$m$": [0.1, -0.3]}
+T = np.linspace(0, 1, 101)
+DIP = 1 - 1.1 * np.exp(-(((T - 0.55) / 0.02) ** 2))
+
+ON_ONE = {
+    "plot_fit": lambda ax: plot_fit(FIT, DATA, ax=ax),
+    "plot_confidence_region": lambda ax: plot_confidence_region(FIT, ax=ax),
+    "plot_stability": lambda ax: plot_stability(RK4, ROBOT.eigenvalues, [0.01, 0.2], ax=ax),
+    "plot_growth": lambda ax: plot_growth(0.9 ** np.arange(8)[None], [0.9], ["heave"], ax),
+    "plot_forces": lambda ax: plot_forces(LOST, ax),
+    "plot_errors": lambda ax: plot_errors(DTS, ERRORS, ax),
+    "plot_heave": lambda ax: plot_heave(V, HEAVE, ax),
+    "plot_margin": lambda ax: plot_margin(V, FORCES, CRITICAL, asked=[1.2], ax=ax),
+    "plot_margin_map": lambda ax: plot_margin_map(
+        V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
+    ),
+    "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
+}
+ON_TWO = {
+    "plot_residuals": lambda axes: plot_residuals(FIT, DATA, axes),
+    "plot_flight": lambda axes: plot_flight(FLIGHT, LINEAR, axes),
+    "plot_missed_dip": lambda axes: plot_missed_dip(T, DIP, T[::10], DIP[::10], axes),
+    "plot_travel": lambda axes: plot_travel(V, 0.01 + 0 * V, 0.1 + 0 * V, 0.0165, axes),
+}
+PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $n$", "amplitude of the mode"]
+PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
+UNITS = r"\((m|s|N|mm|N/m|m/s|degrees|%)\)"
+
+
+@pytest.fixture(autouse=True)
+def style(monkeypatch):
+    """The report's style; no figure is left open, and none is ever shown."""
+
+    def show(*args, **kwargs):
+        pytest.fail("a figure was shown")
+
+    monkeypatch.setattr(plt, "show", show)
+    with plt.style.context("suspension.figures.report"):
+        yield
+    plt.close("all")
+
+
+def title(ax):
+    """The title of an axes, wherever it stands."""
+    return "".join(ax.get_title(place) for place in ("left", "center", "right"))
+
+
+def lines(ax):
+    """The lines of an axes that have a label, by it."""
+    return {line.get_label(): line for line in ax.lines if line.get_label()[:1] != "_"}
+
+
+def assert_labelled(ax):
+    """Both axes say what they show, with a unit unless it is a pure number."""
+    for label in (ax.get_xlabel(), ax.get_ylabel()):
+        assert label in PURE_NUMBERS or re.search(UNITS, label), label
+
+
+def test_every_figure_is_tested_here():
+    there = {name for name in suspension.figures.__all__ if name.startswith("plot_")}
+    on_their_own = {"plot_all_forces", "plot_near_zero", "plot_seen_mode"}
+    assert there == {*ON_ONE, *ON_TWO, *on_their_own}
+
+
+@pytest.mark.parametrize("name", ON_ONE)
+def test_it_draws_on_the_axes_it_is_given_and_returns_it(name):
+    _, (ax, other) = plt.subplots(1, 2)
+    assert ON_ONE[name](ax) is ax
+    assert ax.has_data() and not other.has_data()
+    assert len(plt.get_fignums()) == 1
+    ax.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("name", ON_ONE)
+def test_without_axes_it_opens_one_figure(name):
+    assert ON_ONE[name](None).has_data()
+    assert len(plt.get_fignums()) == 1
+
+
+@pytest.mark.parametrize("name", ON_TWO)
+def test_it_draws_on_both_axes_it_is_given_and_returns_them(name):
+    figure, axes = plt.subplots(2)
+    assert ON_TWO[name](axes) is axes
+    assert all(ax.has_data() for ax in axes)
+    assert len(plt.get_fignums()) == 1
+    figure.canvas.draw()
+
+
+@pytest.mark.parametrize("name", [name for name in ON_ONE if name != "plot_sensitivities"])
+def test_axes_have_labels_with_units(name):
+    ax = ON_ONE[name](None)
+    if name == "plot_errors":  # its x may be a step or a cost: the caller says which
+        ax.set(xlabel="step (s)", ylabel="error (N)")
+    assert_labelled(ax)
+
+
+@pytest.mark.parametrize("name", ON_TWO)
+def test_both_axes_have_labels_with_units(name):
+    _, axes = plt.subplots(2)
+    for ax in ON_TWO[name](axes):
+        assert re.search(UNITS, ax.get_ylabel()) or ax.get_ylabel() in PURE_NUMBERS
+    assert axes[-1].get_xlabel()
+
+
+def test_two_wheels_differ_by_more_than_their_colour():
+    _, axes = plt.subplots(2)
+    for ax in (
+        plot_forces(LOST),
+        plot_margin(V, FORCES, CRITICAL),
+        *plot_flight(FLIGHT, LINEAR, axes),
+    ):
+        styles = {line.get_linestyle() for line in ax.lines if len(line.get_xdata()) > 10}
+        assert len(styles) >= 2
+    names = [set(lines(plot_forces(LOST))), set(lines(axes[0]))]
+    assert all(any("rear" in name for name in found) for found in names)
+
+
+def test_the_fit_goes_through_the_data_and_lies_in_its_band():
+    ax = plot_fit(FIT, DATA)
+    drawn = lines(ax)
+    x, y = drawn["data"].get_data()
+    near(x, DATA["delta_over_delta_max"], 1e-15)
+    near(y, DATA["force"], 1e-15)
+    x, y = drawn["least-squares fit"].get_data()
+    near(y, np.polynomial.Polynomial(FIT.beta)(x), 1e-12)
+    band = ax.collections[0].get_paths()[0].vertices
+    low, high = (
+        np.array([edge(band[np.isclose(band[:, 0], s), 1]) for s in x]) for edge in (np.min, np.max)
+    )
+    assert ((low < y) & (y < high)).all()
+
+
+def test_a_higher_level_is_a_wider_band_and_a_larger_ellipse():
+    narrow, wide = (plot_fit(FIT, DATA, level).collections[0] for level in (0.5, 0.999))
+    extent = [np.ptp(band.get_paths()[0].vertices[:, 1]) for band in (narrow, wide)]
+    assert extent[0] < extent[1]
+    small, large = (plot_confidence_region(FIT, level=level).patches[0] for level in (0.5, 0.999))
+    assert small.width < large.width and small.height < large.height
+
+
+def test_the_ellipse_just_fits_into_the_joint_box_of_two():
+    ax = plot_confidence_region(FIT)
+    box = ax.patches[0].get_extents().transformed(ax.transData.inverted())
+    (x0, x1), (y0, y1) = FIT.intervals(0.95, "scheffe", 2)[[0, 2]]
+    near([box.x0, box.x1], [x0, x1], 1e-3)
+    near([box.y0, box.y1], [y0, y1], 1e-3)
+
+
+def test_residuals_are_data_less_fit():
+    _, axes = plt.subplots(2)
+    plot_residuals(FIT, DATA, axes)
+    fitted = np.polynomial.Polynomial(FIT.beta)(DATA["delta_over_delta_max"].to_numpy())
+    drawn = axes[0].lines[-1].get_ydata()
+    np.testing.assert_allclose(drawn, DATA["force"] - fitted, atol=1e-12)
+    np.testing.assert_allclose(axes[1].lines[-1].get_ydata(), np.sort(drawn), atol=1e-12)
+
+
+@pytest.mark.parametrize("scheme", [EULER, CRANK_NICOLSON, RK4])
+def test_points_are_marked_stable_where_no_mode_grows(scheme):
+    dts = [1e-4, 0.05, 0.3]
+    drawn = lines(plot_stability(scheme, ROBOT.eigenvalues, dts))
+    for dt in dts:
+        label = next(name for name in drawn if rf"\Delta t = {dt:g}$" in name)
+        growth = np.abs(scheme.stability_function(ROBOT.eigenvalues * dt)).max()
+        assert label.endswith(": stable" if growth <= 1 else ": unstable")
+        z = drawn[label].get_xdata() + 1j * drawn[label].get_ydata()
+        near(z, ROBOT.eigenvalues * dt, 1e-15)
+
+
+def test_the_points_of_the_smallest_step_are_enlarged_in_an_inset():
+    dts = [0.05, 0.001, 0.3]
+    ax = plot_stability(RK4, ROBOT.eigenvalues, dts)
+    inset = plot_near_zero(RK4, ROBOT.eigenvalues, dts, ax)
+    z = ROBOT.eigenvalues * 0.001
+    points = inset.lines[-1]
+    near(points.get_xdata() + 1j * points.get_ydata(), z, 1e-15)
+    (left, right), (low, high) = inset.get_xlim(), inset.get_ylim()
+    assert left < z.real.min() and 0 < right and low < z.imag.min() and z.imag.max() < high
+    assert "0.001" in title(inset)
+    ax.figure.canvas.draw()
+
+
+def test_growth_starts_where_the_run_does():
+    amplitude, growth = np.array([[2.0, 3.0, 5.0], [1.0, 0.5, 0.2]]), [1.5, 0.5]
+    ax = plot_growth(amplitude, growth, ["heave", "pitch"])
+    drawn = ax.lines
+    assert drawn[2].get_label().startswith("pitch")
+    near(drawn[1].get_ydata(), [2, 3, 4.5], 1e-15)
+    near(drawn[3].get_ydata(), [1, 0.5, 0.25], 1e-15)
+
+
+def test_forces_say_the_verdict_and_grey_out_what_follows():
+    kept, lost = plot_forces(KEPT), plot_forces(LOST)
+    assert "kept" in title(kept) and not kept.patches
+    assert "front wheel lost at 0.177 s" in title(lost)
+    left, right = lost.patches[0].get_extents().transformed(lost.transData.inverted()).intervalx
+    assert (left, right) == (pytest.approx(LOST.loss.t), pytest.approx(LOST.T[-1]))
+    assert "0.25" in title(kept)
+
+
+@pytest.mark.parametrize("runs", [[LOST], [KEPT, LOST], [KEPT, LOST, LOST]])
+def test_every_run_has_its_panel_and_no_panel_is_empty(runs):
+    figure = plot_all_forces(runs)
+    assert len(plt.get_fignums()) == 1
+    assert len(figure.axes) == len(runs)
+    for run, ax in zip(runs, figure.axes, strict=True):
+        assert f"{run.v:g} m/s" in title(ax)
+        assert_labelled(ax)
+    figure.canvas.draw()
+
+
+def test_an_unstable_run_is_drawn_too():
+    run = simulate(ROBOT, BUMP, v=0.25, dt=0.1, tfinal=5, scheme=EULER)
+    assert "lost" in title(plot_forces(run))
+
+
+def test_flight_shows_forces_above_heights_in_millimetres():
+    _, axes = plt.subplots(2)
+    plot_flight(FLIGHT, LINEAR, axes)
+    near(lines(axes[0])["front wheel"].get_ydata(), FLIGHT.N[1], 1e-15)
+    highest = max(line.get_ydata().max() for line in axes[1].lines)
+    assert highest == pytest.approx(1000 * FLIGHT.gaps.max())
+
+
+def test_errors_may_have_their_own_costs():
+    cost = {"Euler": [1, 2, 3], "RK4": [4, 8]}
+    drawn = lines(plot_errors(cost, {"Euler": [1e-1, 1e-2, 1e-3], "RK4": [1e-5, 1e-9]}))
+    assert drawn["RK4"].get_xdata().tolist() == [4, 8]
+    assert plot_errors(cost, {"Euler": [1, 2, 3]}).get_xscale() == "log"
+
+
+def test_many_curves_stay_apart():
+    many = {f"method {i}": DTS * 2**i for i in range(9)}
+    looks = {
+        (line.get_color(), line.get_linestyle(), line.get_marker())
+        for line in plot_errors(DTS, many).lines
+    }
+    assert len(looks) == 9
+
+
+def test_heave_is_in_millimetres():
+    drawn = lines(plot_heave(V, HEAVE))
+    near(drawn["v = 1.2 m/s"].get_ydata(), 1000 * HEAVE[1.2], 1e-15)
+
+
+def test_a_seen_mode_is_shown_by_frequency_and_damping_with_nyquists_limit():
+    figure = plt.figure(layout="constrained")
+    left, right = plot_seen_mode(DTS, SEEN, -2 + 33j, figure)
+    assert figure.axes == [left, right]
+    assert_labelled(left)
+    assert_labelled(right)
+    near(left.lines[0].get_ydata(), np.ones(30), 1e-15)
+    near(right.lines[1].get_ydata(), np.linspace(1, -1, 30) / np.abs(SEEN["Euler"]), 1e-12)
+    nyquist = next(line for line in left.lines if line.get_label() == "Nyquist")
+    near(nyquist.get_ydata() * 33 * DTS, np.full(30, np.pi), 1e-12)
+    figure.canvas.draw()
+
+
+def test_a_missed_dip_is_in_the_close_up_between_two_steps():
+    _, axes = plt.subplots(1, 2)
+    plot_missed_dip(T, DIP, T[::10], DIP[::10], axes)
+    left, right = axes[1].get_xlim()
+    low, high = axes[1].get_ylim()
+    assert left < T[DIP.argmin()] < right and right - left < 0.2
+    assert low < DIP.min() < 0 < high
+
+
+@pytest.mark.parametrize("critical", [[], [0.5], [0.5, 0.51, 8.0], [0.11, 29.0]])
+def test_a_margin_has_a_word_or_a_shade_for_every_range(critical):
+    N = np.array([np.sign(V - 0.5)] * 2) if critical == [0.5] else FORCES
+    ax = plot_margin(V, N, critical, asked=[1.2])
+    words = [text.get_text() for text in ax.texts]
+    assert {"lost", "kept"} & set(words)
+    assert all(f"{speed:.3g}" in words for speed in critical)
+    assert ("critical speeds" in lines(ax)) == bool(critical)
+    ax.figure.canvas.draw()
+
+
+def test_contact_is_called_lost_where_the_margin_is_negative():
+    N = np.array([np.where(V < 1, -1.0, 2.0), np.full(len(V), 3.0)])
+    ax = plot_margin(V, N, [1.0])
+    words = {text.get_text(): text.get_position()[0] for text in ax.texts}
+    assert words["lost"] < 1 < words["kept"]
+    spans = [
+        patch.get_extents().transformed(ax.transData.inverted()).intervalx for patch in ax.patches
+    ]
+    near(spans, [[V[0], 1.0]], 1e-9)
+
+
+def test_close_critical_speeds_do_not_cover_each_other():
+    ax = plot_margin(V, FORCES, [5.0, 5.1, 5.2])
+    ax.figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in ax.texts if text.get_text()[0] == "5"]
+    assert len(boxes) == 3
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_ranges_beyond_the_measured_spring_are_hatched_and_named_once():
+    ax = plot_margin(V, FORCES, CRITICAL, beyond=[[0.3, 0.4], [0.7, 30]])
+    hatched = [patch for patch in ax.patches if patch.get_hatch()]
+    assert len(hatched) == 2
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert sum("beyond" in label for label in labels) == 1
+
+
+def test_a_map_turns_where_the_margin_is_zero():
+    margin = np.log(V) - np.log(K / 300)[:, None]  # zero where v = k / 300
+    ax = plot_margin_map(V, K, margin, 800, (780, 820), asked=[0.25, 1.2])
+    contour = next(
+        c for c in ax.collections if len(c.get_paths()) == 1 and c.get_linewidth()[0] == 1.6
+    )
+    v, k = contour.get_paths()[0].vertices.T
+    near(v, k / 300, 0.01)
+    assert len(ax.figure.axes) == 2 and "(N)" in ax.figure.axes[1].get_ylabel()
+    assert ax.get_ylim() == (K[0], K[-1])
+
+
+@pytest.mark.parametrize("speeds", [[], [0.5], [0.5, 8.0], np.geomspace(0.1, 20, 7)])
+def test_sensitivities_have_a_bar_for_every_speed_and_parameter(speeds):
+    percent = {"$k$": np.ones(len(speeds)), "$c$": -np.ones(len(speeds))}
+    ax = plot_sensitivities(speeds, percent)
+    assert len(ax.patches) == 2 * len(speeds)
+    ends = sorted((bar.get_x(), bar.get_x() + bar.get_width()) for bar in ax.patches)
+    assert all(left[1] <= right[0] + 1e-12 for left, right in pairwise(ends))
+    assert "%" in ax.get_ylabel()
+
+
+def test_travel_is_in_millimetres_and_degrees_beside_what_was_measured():
+    _, axes = plt.subplots(2)
+    plot_travel(V, np.full(len(V), 0.02), np.full(len(V), np.pi / 6), 0.0165, axes)
+    compression, measured = (line.get_ydata() for line in axes[0].lines)
+    near(compression, np.full(len(V), 20.0), 1e-15)
+    near(measured, [16.5, 16.5], 1e-15)
+    near(axes[1].lines[0].get_ydata(), np.full(len(V), 30.0), 1e-14)
+
+
+@pytest.mark.parametrize("history", [LOST, FLIGHT], ids=["run", "flight"])
+@pytest.mark.parametrize("times", [[0.1], [0.0, 0.1, 0.2]])
+def test_a_film_has_a_frame_for_every_time(history, times):
+    figure = film(history, ROBOT, BUMP, times)
+    assert len(figure.axes) == len(times)
+    for ax, t in zip(figure.axes, times, strict=True):
+        assert f"t = {t:.3f} s" in [text.get_text() for text in ax.texts]
+    figure.canvas.draw()

@@ -1,0 +1,122 @@
+"""Sentences of Part VI, for springs and robots of every kind."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from cases import STIFFNESSES, faults
+
+from suspension.flight import fly
+from suspension.report import airborne as part
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+from suspension.simulation import simulate
+from suspension.travel import moments, travel
+
+BUMP = GaussianBump()
+ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
+    "undamped": Robot(793, 793, c1=0, c2=0),
+    "unsymmetric": Robot(700, 900, m=1.3, Izz=0.02, L1=0.09, L2=0.13, c1=1.2, c2=1.9),
+}
+SPEEDS = (0.5, 1.2, 5)
+each_robot = pytest.mark.parametrize("name", ROBOTS)
+
+
+@cache
+def flights(name, wheel="follows"):
+    return {v: fly(ROBOTS[name], BUMP, v=v, tfinal=1, wheel=wheel) for v in SPEEDS}
+
+
+@each_robot
+def test_sentences_about_flights_are_sound(name):
+    robot, runs = ROBOTS[name], flights(name)
+    linear = {v: simulate(robot, BUMP, v=v, dt=1e-3, tfinal=1) for v in SPEEDS}
+    pressing = {v: travel(robot, BUMP, v).pitch for v in SPEEDS}
+    told = moments(runs[1.2], robot, BUMP)
+    assert list(told) == sorted(told) and len(told) >= 3
+    texts = [
+        part.flight_table(runs.values(), robot),
+        part.who_flies(runs, linear),
+        part.tilt(runs, pressing),
+        part.models(runs, flights(name, "relaxes"), robot),
+        *part.flight_caption(list(runs.values())),
+        *part.film_caption(1.2, told),
+    ]
+    for text in texts:
+        assert not faults(text)
+
+
+def test_who_flies_follows_the_spring():
+    def words(name, speeds):
+        runs = {v: flights(name)[v] for v in speeds}
+        linear = {v: simulate(ROBOTS[name], BUMP, v=v, dt=1e-3, tfinal=1) for v in speeds}
+        return part.who_flies(runs, linear).replace("\xa0", " ")
+
+    assert "flies at 1.2 and 5 m/s" in words("k = 793", (1.2, 5, 0.5)[:2]) or "each" in words(
+        "k = 793", (1.2, 5)
+    )
+    assert "flies at 1.2 m/s" in words("k = 405", (1.2, 5))
+    assert "no wheel leaves the ground" in words("k = 250", (1.2, 5))
+
+
+def test_a_run_that_does_not_settle_is_told_so():
+    table = part.flight_table([fly(ROBOTS["undamped"], BUMP, v=5, tfinal=1)], ROBOTS["undamped"])
+    assert "> 1 |" in table
+
+
+def test_the_caption_says_which_of_the_shown_fly():
+    runs = flights("k = 405")
+    assert "At 5 m/s no wheel" in part.flight_caption([runs[1.2], runs[5]]).text.replace(
+        "\xa0", " "
+    )
+    assert "No wheel leaves the ground here" in part.flight_caption([runs[5], runs[5]]).text
+    assert "leaves the ground" not in part.flight_caption([runs[1.2]]).text
+
+
+def test_where_the_damper_lets_go_the_force_returns_without_a_jump_and_the_models_part():
+    robot = ROBOTS["k = 793"]
+
+    def pair(v):
+        return [
+            fly(robot, BUMP, v=v, tfinal=1.25 / v + 0.1, wheel=wheel)
+            for wheel in ("follows", "relaxes")
+        ]
+
+    text = part.first_flights([pair(v) for v in (0.438, 7.84, 25)]).replace("\xa0", " ")
+    assert "At 7.84 and 25 m/s the footnote's wheel never rises" in text
+    assert "part most at 25 m/s" in text and "0.65 ms later, with 3.9 N more" in text
+    assert not faults(text)
+    hard = part.first_flights([pair(1.2)])
+    assert "ends with a jump" in hard and "hardly a difference" in hard
+    assert "none of these speeds" in part.first_flights([pair(0.25)])
+
+
+def test_the_models_agree_or_not_as_the_numbers_say():
+    close = part.models(flights("k = 793"), flights("k = 793", "relaxes"), ROBOTS["k = 793"])
+    assert "by more than" in close
+    nobody = part.models({0.25: fly(ROBOTS["k = 250"], BUMP, v=5, tfinal=1)}, {}, ROBOTS["k = 250"])
+    assert "are one" in nobody
+    undamped = part.models(flights("undamped"), flights("undamped"), ROBOTS["undamped"])
+    assert "Without dampers" in undamped
+
+
+def test_the_pitch_in_the_air_is_compared_with_the_pitch_before():
+    robot = ROBOTS["k = 793"]
+    run = {1.2: flights("k = 793")[1.2]}
+    text = part.tilt(run, {1.2: travel(robot, BUMP, 1.2).pitch})
+    assert "17.8 degrees" in text and "7.9 degrees at most until" in text
+    assert "no more than" in part.tilt(run, {1.2: np.radians(17.8)})
+
+
+@pytest.mark.parametrize(
+    ("orders", "words"),
+    [((1.1, 4.0), "found again"), ((3.0, 3.8), "Stopping"), ((3.9, 3.9), "not to be seen")],
+)
+def test_the_orders_are_judged(orders, words):
+    text = part.order_sentence(5, orders)
+    assert words in text and not faults(text)
+    assert not faults(part.order_caption(5, 0.139, orders).alt)
+
+
+def test_without_a_landing_there_is_no_order():
+    assert "no wheel lands" in part.order_sentence(None, None)

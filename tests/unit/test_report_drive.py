@@ -1,0 +1,47 @@
+"""The experiments beside the sliders fit the robot that the sliders move."""
+
+import pytest
+from cases import STIFFNESSES, faults
+
+from suspension.explorer.settings import DTS
+from suspension.report.drive import experiments
+from suspension.robot import Robot
+from suspension.schemes import RK4
+
+ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
+    "undamped": Robot(793, 793, c1=0, c2=0),
+    "unsymmetric": Robot(700, 900, m=1.3, Izz=0.02, L1=0.09, L2=0.13, c1=1.2, c2=1.9),
+}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("critical, flips", [([], []), ([0.436, 7.85], [572.8])])
+def test_every_robot_has_five_sound_experiments(name, critical, flips):
+    robot = ROBOTS[name]
+    limit = RK4.max_stable_dt(robot.eigenvalues)
+    text = experiments(robot, critical, flips, limit, DTS)
+    assert not faults(text)
+    assert [line[:2] for line in text.splitlines()] == ["1.", "2.", "3.", "4.", "5."]
+
+
+def told(**changes):
+    usual = {"critical": [0.436], "flips": [572.8], "limit": 0.0744, "slider": DTS}
+    return experiments(Robot(793, 793), **usual | changes)
+
+
+def test_the_step_is_lengthened_past_the_limit():
+    assert "from 70 to 80 ms: the largest stable one is 74.4 ms" in told()
+    assert "from 100 to 200 ms" in told(limit=0.1325)
+    assert "nothing blows up. Soften" in told(limit=0.5)
+    assert "step to 1 ms" in told(limit=1e-4, slider=(0.001, 0.002))
+
+
+def test_no_speed_and_no_stiffness_may_turn_the_verdict():
+    calm = told(critical=[], flips=[])
+    assert "does not turn anywhere" in calm and "The verdict stays" in calm
+    assert "turns at 573 N/m" in told()
+
+
+def test_a_heave_without_a_swing_is_left_out():
+    stiff = Robot(100, 100, c1=40, c2=40)
+    assert "5." not in experiments(stiff, [], [], 0.01, DTS)
