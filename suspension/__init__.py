@@ -13,7 +13,7 @@ What goes beyond:
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `flight`: what happens after it has
 - `sweep`: very many runs at once
-- `travel`, `accuracy`, `uncertainty`: how far the answers can be trusted
+- `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them.
@@ -32,7 +32,6 @@ from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
 from suspension.simulation import simulate
-
 
 __version__ = "2.0.0"
 

@@ -6,21 +6,27 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from suspension.contact import exact_loss, normal_forces
+from suspension.contact import exact_loss, margin, normal_forces
 from suspension.course import RK4, make_forcing
 from suspension.exact import over_bump
 from suspension.flight import fly, make_flight_gfunc
+from suspension.least_force import COURSE
 from suspension.simulation import simulate
 
 __all__ = [
     "Errors",
+    "after_landing",
     "disagreement",
+    "error_table",
     "errors",
     "evaluations",
     "event_run",
     "fitted_order",
     "flight_errors",
+    "just_lost",
     "missed_dip",
+    "overlooked",
+    "seen_mode",
     "solve_ivp_errors",
 ]
 
@@ -52,7 +58,7 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
     Errors
         The run's loss of contact is where a cubic spline through its forces crosses zero.
     """
-    tfinal = 1.25 / v if tfinal is None else tfinal
+    tfinal = COURSE / v if tfinal is None else tfinal
     run = simulate(robot, bump, v=v, dt=dt, tfinal=tfinal, scheme=scheme)
     W, N = _truth(robot, bump, v, run.T)
     loss = exact_loss(robot, bump, v, tfinal)
@@ -62,6 +68,11 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
         np.abs(run.N - N).max(),
         abs(_crossing(run.T, run.N) - loss.t) if loss else np.nan,
     )
+
+
+def error_table(robot, bump, *, v, dts, scheme):
+    """`errors` for several time steps `dts`, s, shape (n,): an ndarray, shape (n, 3)."""
+    return np.array([errors(robot, bump, v=v, dt=dt, scheme=scheme) for dt in dts])
 
 
 def _truth(robot, bump, v, T):
@@ -77,9 +88,44 @@ def _crossing(T, N):
 
 
 def evaluations(scheme, J):
-    """Right-hand sides evaluated in J steps; a stage that starts where the last ended is free."""
-    reused = bool(scheme.c[0] == 0 and not scheme.a[0].any() and np.all(scheme.a[-1] == scheme.b))
+    """Right-hand sides evaluated in J steps; a stage that starts where the last ended is free.
+
+    So a step of Crank-Nicolson, whose second stage is the first one of the next step, counts as
+    one new evaluation (and one linear system to solve), RK4's as four, Euler's as one.
+
+    >>> from suspension.schemes import CRANK_NICOLSON, RK4
+    >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
+    (101, 400)
+    """
+    starts_at_the_old_end = scheme.c[0] == 0 and not scheme.a[0].any()
+    ends_at_the_new_one = np.all(scheme.a[-1] == scheme.b)
+    reused = int(starts_at_the_old_end and ends_at_the_new_one)
     return (len(scheme.b) - reused) * J + reused
+
+
+def seen_mode(scheme, lam, dts):
+    """The eigenvalue that a run shows in the place of `lam`: ``ln R(lam dt) / dt``.
+
+    The logarithm has many branches; the imaginary part is followed from the shortest step on, so
+    that the frequency is continuous. Beyond ``pi / dt`` (Nyquist) no sample can tell it from the
+    one that is lower by ``2 pi / dt``.
+
+    Parameters
+    ----------
+    scheme : Scheme
+    lam : complex
+        Eigenvalue of a mode, 1/s.
+    dts : array_like, shape (n,)
+        Time steps, s, in order, the first one short against ``1 / abs(lam)``.
+
+    Returns
+    -------
+    seen : ndarray of complex, shape (n,)
+        1/s.
+    """
+    dts = np.asarray(dts)
+    R = scheme.stability_function(lam * dts)
+    return (np.log(np.abs(R)) + 1j * np.unwrap(np.angle(R))) / dts
 
 
 def solve_ivp_errors(robot, bump, *, v, method, tolerances):
@@ -97,7 +143,7 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances):
     evaluations, errors : ndarray, shape (len(tolerances),)
         Right-hand sides evaluated, and the error at 201 times in N.
     """
-    T = np.linspace(0, 1.25 / v, 201)
+    T = np.linspace(0, COURSE / v, 201)
     N = _truth(robot, bump, v, T)[1]
     options = {} if method in ("RK45", "DOP853") else {"jac": lambda t, w: robot.A}
     costs, worst = [], []
@@ -112,13 +158,13 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances):
 
 def _solve_ivp(robot, bump, v, **options):
     F = make_forcing(robot, bump, v)
-    span = 0, 1.25 / v
+    span = 0, COURSE / v
     return solve_ivp(lambda t, w: robot.A @ w + F(t), span, robot.equilibrium, **options)
 
 
 def disagreement(robot, bump, v):
     """Largest difference, in SI units, of the closed form from DOP853 at a tolerance of 1e-12."""
-    T = np.linspace(0, 1.25 / v, 101)
+    T = np.linspace(0, COURSE / v, 101)
     tight = {"rtol": 1e-12, "atol": 1e-14, "max_step": bump.sigma / v}
     run = _solve_ivp(robot, bump, v, method="DOP853", t_eval=T, **tight)
     return np.abs(run.y - over_bump(robot, bump, v, T)).max()
@@ -137,13 +183,44 @@ def event_run(robot, bump, v, **options):
     return run, any(times.size for times in run.t_events)
 
 
+def overlooked(robot, bump, speeds, **options):
+    """Those of the `speeds`, m/s, at which `event_run` sees no loss of contact, a list."""
+    return [v for v in speeds if not event_run(robot, bump, v, **options)[1]]
+
+
+def just_lost(robot, bump, critical, n=40):
+    """Speeds beside the last critical one, up to 5 % away, at which contact is lost.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    critical : array_like
+        Critical speeds, m/s, in order.
+    n : int
+        How many speeds, on the side on which contact is lost.
+
+    Returns
+    -------
+    v : ndarray, shape (n,)
+        In order, m/s; those at which contact is kept (because another critical speed is near) are
+        left out, and without a critical speed there are none.
+    """
+    if not len(critical):
+        return np.array([])
+    away = 0.05 * np.arange(1, n + 1) / (n + 1)
+    above, below = (1 + away) * critical[-1], (1 - away[::-1]) * critical[-1]
+    side = above if margin(robot, bump, above[0]) < 0 else below
+    return np.array([v for v in side if margin(robot, bump, v) < 0])
+
+
 def missed_dip(robot, bump, v, **options):
     """The exact force of the wheel that dips lowest, and the same force at the steps of a run.
 
     Returns T, N of the exact history and of the steps, each of shape (n,).
     """
     run, _ = event_run(robot, bump, v, **options)
-    T = np.linspace(0, 1.25 / v, 20001)
+    T = np.linspace(0, COURSE / v, 20001)
     N = _truth(robot, bump, v, T)[1]
     wheel = N.min(axis=1).argmin()
     return T, N[wheel], run.t, normal_forces(robot, bump, v, run.t, run.y)[wheel]
@@ -152,10 +229,29 @@ def missed_dip(robot, bump, v, **options):
 def fitted_order(dts, errors):
     """Slope of log(error) against log(dt): the observed order of convergence.
 
-    >>> round(fitted_order([0.1, 0.05], [4e-2, 1e-2]), 12)
+    Errors that are not finite are left out; nan if fewer than two are left.
+
+    >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
-    return float(np.polyfit(np.log(dts), np.log(errors), 1)[0])
+    dts, errors = np.asarray(dts), np.asarray(errors)
+    good = np.isfinite(errors) & (errors > 0)
+    if good.sum() < 2:
+        return np.nan
+    return float(np.polyfit(np.log(dts[good]), np.log(errors[good]), 1)[0])
+
+
+def after_landing(flight):
+    """A time at which a study of steps can end: after the first landing with a jump of the force.
+
+    Half-way to the next switch, and at most half as long after the landing as it took until
+    then, s; None if no landing has a jump.
+    """
+    for event, following in zip(flight.events, [*flight.events[1:], None]):
+        if event.kind == "landing" and event.force > 1e-3:
+            end = following.t if following else flight.T[-1]
+            return float(event.t + min(end - event.t, event.t) / 2)
+    return None
 
 
 def flight_errors(robot, road, *, v, tfinal, steps):
@@ -177,13 +273,21 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         that ignore the switches, and for steps fitted between them.
     """
     flight = fly(robot, road, v=v, tfinal=tfinal)
-    scale, gfunc = np.abs(flight.W).max(axis=1), make_flight_gfunc(robot, road)
-    errors = []
+    scale = np.abs(flight.W).max(axis=1)
+    gfunc = make_flight_gfunc(robot, road)
+
+    def last(gfunc, w, duration, J):
+        return RK4(gfunc, w, duration / J, duration, v)[0][:, -1]
+
+    def error(w):
+        return (np.abs(w - flight.W[:, -1]) / scale).max()
+
+    blind, located = [], []
     for J in steps:
-        ends = [RK4(gfunc, robot.equilibrium, tfinal / J, tfinal, v)[0][:, -1], robot.equilibrium]
+        blind.append(error(last(gfunc, robot.equilibrium, tfinal, J)))
+        w = robot.equilibrium
         for start, end, pressing in flight.legs:
             leg = make_flight_gfunc(robot, road, pressing, start)
-            dt = (end - start) / np.ceil(J * (end - start) / tfinal)
-            ends[1] = RK4(leg, ends[1], dt, end - start, v)[0][:, -1]
-        errors.append([(np.abs(w - flight.W[:, -1]) / scale).max() for w in ends])
-    return np.array(errors).T
+            w = last(leg, w, end - start, int(np.ceil(J * (end - start) / tfinal)))
+        located.append(error(w))
+    return np.array(blind), np.array(located)

@@ -123,6 +123,8 @@ def turning_points(crossing, tfinal=None):
             for i in range(0, len(samples) - 1, CHUNK)
         ]
         t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
+        t, once = np.unique(t, return_index=True)  # the parts share their ends
+        N = N[:, once]
         error = roundoff(crossing, tfinal)
     scale = max(np.abs(crossing.robot.C @ crossing.robot.equilibrium).max(), -N.min())
     if not (np.isfinite(N).all() and error <= DIGITS_LOST * scale):
@@ -155,7 +157,7 @@ def _with_minima(crossing, t):
 
 
 def roundoff(crossing, tfinal):
-    """A bound of the rounding error in the forces of a crossing until `tfinal`, N.
+    """An estimate of the largest rounding error in the forces of a crossing until `tfinal`, N.
 
     The state is a sum over the modes. Each term carries a few units in its own last place, and
     what an error of the eigenvalue, of the size of a unit in the last place of the *largest* one,

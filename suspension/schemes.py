@@ -156,21 +156,19 @@ class Scheme:
         modulus = abs(eigenvalue)
         if modulus == 0:
             return np.inf
-        P, Q = (
-            Polynomial(p.coef * (eigenvalue / modulus) ** np.arange(len(p.coef)))
-            for p in self.polynomials
-        )
-        slack = (Q * Polynomial(Q.coef.conj()) - P * Polynomial(P.coef.conj())).coef.real
-        terms = (Polynomial(np.abs(Q.coef)) ** 2 + Polynomial(np.abs(P.coef)) ** 2).coef
+        direction = eigenvalue / modulus
+        P, Q = (_along(direction, polynomial) for polynomial in self.polynomials)
+        slack = (Q * _conjugate(Q) - P * _conjugate(P)).coef.real  # >= 0 where stable
         # Undamped modes cancel, up to the eigenvalue solver's error in their real parts.
-        slack[np.abs(slack) < TOLERANCE * terms[: len(slack)]] = 0.0
+        terms = (_moduli(Q) ** 2 + _moduli(P) ** 2).coef[: len(slack)]
+        slack[np.abs(slack) < TOLERANCE * terms] = 0.0
         slack = np.trim_zeros(slack, "f")  # the multiple root at dt = 0 says nothing
         if not slack.size:
             return np.inf
         slack = Polynomial(slack)
         roots = slack.roots()
-        roots = np.sort(roots.real[(np.abs(roots.imag) < 1e-9 * np.abs(roots)) & (roots.real > 0)])
-        edges = np.concatenate([[0.0], roots])
+        real = np.abs(roots.imag) < 1e-9 * np.abs(roots)
+        edges = np.concatenate([[0.0], np.sort(roots.real[real & (roots.real > 0)])])
         inside = np.append((edges[:-1] + edges[1:]) / 2, edges[-1] + 1)
         unstable = slack(inside) < 0
         return edges[unstable.argmax()] / modulus if unstable.any() else np.inf
@@ -216,6 +214,19 @@ class Scheme:
             before = phi
             z.append(at)
         return np.array(z)
+
+
+def _along(direction, polynomial):
+    """The polynomial in r that another is at ``z = direction r``."""
+    return Polynomial(polynomial.coef * direction ** np.arange(len(polynomial.coef)))
+
+
+def _conjugate(polynomial):
+    return Polynomial(polynomial.coef.conj())
+
+
+def _moduli(polynomial):
+    return Polynomial(np.abs(polynomial.coef))
 
 
 def _determinant(M):

@@ -1,14 +1,30 @@
-"""Where the model itself is in doubt: how far the springs travel and how far the body tilts."""
+"""Where the model itself is in doubt: how far the springs travel and how far the body tilts.
 
+And what to look at in a flight: the moments that tell its story.
+"""
+
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from suspension.contact import exact_loss
+from suspension.contact import critical_speeds, exact_loss, margin, minima
+from suspension.critical import zeros
 from suspension.exact import over_bump
+from suspension.forces import WHEEL
+from suspension.least_force import COURSE
 from suspension.road import road_input
 
-__all__ = ["Travel", "travel"]
+__all__ = [
+    "Balance",
+    "Travel",
+    "balance",
+    "compression_map",
+    "margin_map",
+    "moments",
+    "overtravel",
+    "travel",
+]
 
 
 class Travel(NamedTuple):
@@ -37,8 +53,150 @@ def travel(robot, bump, v, samples=2001):
         The compression is ``h_i - Y_i``, counted from the unstretched spring.
     """
     loss = exact_loss(robot, bump, v)
-    t = np.linspace(0, loss.t if loss else 1.25 / v, samples)
-    W, u = over_bump(robot, bump, v, t), road_input(robot, bump, v, t)
-    ends = np.array([W[0] - robot.L1 * W[2], W[0] + robot.L2 * W[2]])
-    compression = u[:2] - ends
+    t = np.linspace(0, loss.t if loss else COURSE / v, samples)
+    W = over_bump(robot, bump, v, t)
+    compression = _compression(robot, bump, v, t, W)
     return Travel(compression.max(), max(-compression.min(), 0.0), np.abs(W[2]).max())
+
+
+def _compression(robot, bump, v, t, W):
+    """``h_i - Y_i`` at times `t`, shape (n,), and states `W`, shape (4, n): m, shape (2, n)."""
+    ends = W[0] + np.outer(robot.arms, W[2])
+    return road_input(robot, bump, v, t)[:2] - ends
+
+
+def overtravel(robot, bump, limit, vmin, vmax):
+    """The ranges of speed in which a spring is compressed by more than `limit`.
+
+    Only what happens before a loss of contact counts. The compression until then jumps where the
+    moment of the loss does; elsewhere it is continuous in the speed, and the edges are solved for.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    limit : float
+        Compression, m.
+    vmin, vmax : float
+        Range of speeds, m/s, 0 < vmin < vmax.
+
+    Returns
+    -------
+    ranges : ndarray, shape (n, 2)
+        Lower and upper edges, m/s, in order. A range narrower than a fortieth of its speed may be
+        missed.
+
+    Examples
+    --------
+    >>> from suspension.road import GaussianBump
+    >>> from suspension.robot import Robot
+    >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.1, 30).round(2)
+    array([[ 0.39,  0.44],
+           [ 0.72, 30.  ]])
+    """
+
+    def excess(x):
+        return travel(robot, bump, np.exp(x), samples=1001).compression / limit - 1
+
+    samples = 2 + int(40 * np.log(vmax / vmin))
+    x = np.linspace(np.log(vmin), np.log(vmax), samples)
+    turns = np.log(critical_speeds(robot, bump, vmin, vmax))  # the moment of the loss jumps there
+    edges = np.array([vmin, *np.exp(zeros(excess, np.union1d(x, turns))), vmax])
+    inside = [excess(np.log(middle)) > 0 for middle in np.sqrt(edges[1:] * edges[:-1])]
+    ranges = []
+    for left, right, beyond in zip(edges[:-1], edges[1:], inside, strict=True):
+        if beyond and ranges and ranges[-1][1] == left:
+            ranges[-1][1] = right
+        elif beyond:
+            ranges.append([left, right])
+    return np.array(ranges).reshape(-1, 2)
+
+
+def margin_map(robot, bump, v, k):
+    """The margin over speed and stiffness.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    v, k : array_like, shapes (n,) and (m,)
+        Speeds, m/s, and stiffnesses of all springs, N/m.
+
+    Returns
+    -------
+    margin : ndarray, shape (m, n)
+        N.
+    """
+    robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
+    return np.array([[margin(other, bump, speed) for speed in v] for other in robots])
+
+
+def compression_map(robot, bump, v, k):
+    """The largest compression of a spring, in m, over speed and stiffness, as `margin_map`."""
+    robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
+    return np.array(
+        [[travel(other, bump, speed, 501).compression for speed in v] for other in robots]
+    )
+
+
+class Balance(NamedTuple):
+    """What the force on a wheel, 1 (rear) or 2 (front), is the sum of: spring and damper, N."""
+
+    wheel: int
+    spring: float
+    damper: float
+
+
+def balance(robot, bump, v):
+    """The two parts of the least normal force on the way over the bump, at `v` in m/s."""
+    least = min(minima(robot, bump, v), key=lambda minimum: minimum.force)
+    t = np.array([least.t])
+    i = least.wheel - 1
+    compression = _compression(robot, bump, v, t, over_bump(robot, bump, v, t))
+    spring = float(robot.k[i] * compression[i, 0])
+    return Balance(least.wheel, spring, least.force - spring)
+
+
+def moments(flight, robot, bump):
+    """The moments on the way over the bump that tell the story of a flight, with words for each.
+
+    Parameters
+    ----------
+    flight : suspension.flight.Flight
+    robot : Robot
+    bump : GaussianBump
+
+    Returns
+    -------
+    moments : dict of float to str
+        Times, s, in order. With a lift-off: the front wheel at the foot of the bump, the first
+        lift-off, the highest point of that flight, its landing, and the highest wheel of all.
+        Without: either wheel at the foot and on the top of the bump, and past it.
+    """
+    v = flight.v
+    foot = bump.centre - 2 * bump.sigma
+    told = {(foot - robot.L2) / v: f"the {WHEEL[2]} wheel reaches the bump"}
+    if not flight.events:
+        told[(bump.centre - robot.L2) / v] = f"the {WHEEL[2]} wheel is on its top"
+        told[bump.centre / v] = "the body is over it"
+        told[(bump.centre + robot.L1) / v] = f"the {WHEEL[1]} wheel is on its top"
+        told[(bump.centre + 2 * bump.sigma + robot.L1) / v] = "both have passed"
+        return told
+    first = flight.events[0]
+    told[first.t] = f"the {WHEEL[first.wheel]} wheel lifts off"
+    landings = [
+        event.t
+        for event in flight.events
+        if event.wheel == first.wheel and event.kind == "landing" and event.t <= COURSE / v
+    ]
+    end = landings[0] if landings else COURSE / v
+    gaps = np.where(flight.T <= COURSE / v, flight.gaps, -1)
+    aloft = (flight.T > first.t) & (flight.T < end)
+    top = float(flight.T[np.where(aloft, gaps[first.wheel - 1], -1).argmax()])
+    told[top] = "it is at the top of this flight"
+    if landings:
+        told[end] = "it lands"
+    i, j = np.unravel_index(gaps.argmax(), gaps.shape)
+    if float(flight.T[j]) not in told:
+        told[float(flight.T[j])] = f"the {WHEEL[i + 1]} wheel is at its highest"
+    return dict(sorted(told.items()))

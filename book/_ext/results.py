@@ -1,8 +1,11 @@
 """Sphinx extension: what a notebook computed, shown on another page.
 
-A notebook names a sentence, a table or a figure with ``myst_nb.glue(name, value)``; any page shows
-it with ``{result}`name` `` within a line, or with the ``{result}`` directive as a block of its own.
+A notebook names a sentence, a table or a figure (`suspension.report.show`); any page shows it with
+``{result}`name` `` within a line, or with the ``{result}`` directive as a block of its own.
 MyST-NB's own ``{glue}`` cannot do that for Markdown from another page, nor set an alt text there.
+
+A figure that a notebook shows with a computed caption and alt text becomes a numbered figure, here
+and wherever it is quoted.
 """
 
 import base64
@@ -14,6 +17,7 @@ from pathlib import Path
 from docutils import nodes
 from docutils.parsers.rst import directives
 from docutils.statemachine import StringList
+from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
@@ -34,15 +38,16 @@ def results_file(env, page):
 
 
 def find(env, name, location):
-    """The MIME bundle of a named result; an unknown or doubled name is a warning, so an error."""
+    """A named result, as a notebook's output; an unknown or doubled name is a warning."""
     files = [results_file(env, page) for page in sorted(env.found_docs)]
     pages = [json.loads(path.read_text()) for path in files if path.exists()]
-    found = [page[name]["data"] for page in pages if name in page]
+    found = [page[name] for page in pages if name in page]
     if len(found) != 1:
         known = sorted({key for page in pages for key in page})
-        logger.warning("%d results are called %r, of %s", len(found), name, known,
-                       location=location)
-    return found[0] if found else {"text/plain": f"[{name}]"}
+        logger.warning(
+            "%d results are called %r, of %s", len(found), name, known, location=location
+        )
+    return found[0] if found else {"data": {"text/plain": f"[{name}]"}, "metadata": {}}
 
 
 class ResultRole(SphinxRole):
@@ -50,13 +55,16 @@ class ResultRole(SphinxRole):
 
     def run(self):
         """Parse the Markdown where it is shown, so that its mathematics and links work."""
-        data = find(self.env, self.text, self.get_location())
+        data = find(self.env, self.text, self.get_location())["data"]
         text = data.get("text/markdown") or data["text/plain"].strip("'")
         return self.inliner.parse(text.strip(), self.lineno, None, nodes.inline())
 
 
 class ResultDirective(SphinxDirective):
-    """A paragraph, a table, or a figure with its own alt text, name and caption (the content)."""
+    """A paragraph, a table, or a figure.
+
+    A figure brings its caption and its alt text along; the content and ``:alt:`` replace them.
+    """
 
     required_arguments = 1
     has_content = True
@@ -68,16 +76,20 @@ class ResultDirective(SphinxDirective):
 
     def run(self):
         """Show the richest form the notebook gave."""
-        data = find(self.env, self.arguments[0], self.get_location())
+        output = find(self.env, self.arguments[0], self.get_location())
+        data = output["data"]
         for mime, (suffix, decode) in PICTURES.items():
             if mime in data:
-                return [self.figure(decode(data[mime]), suffix)]
+                return [self.figure(decode(data[mime]), suffix, output["metadata"])]
         if self.content:
-            logger.warning("%s is no picture, yet has a caption", self.arguments[0],
-                           location=self.get_location())
+            logger.warning(
+                "%s is no picture, yet has a caption",
+                self.arguments[0],
+                location=self.get_location(),
+            )
         if "text/html" in data:
-            return [nodes.container("", nodes.raw("", data["text/html"], format="html"),
-                                    classes=["pst-scrollable-table-container"])]
+            table = nodes.raw("", data["text/html"], format="html")
+            return [nodes.container("", table, classes=["pst-scrollable-table-container"])]
         return self.parse(data.get("text/markdown") or data["text/plain"])
 
     def parse(self, text):
@@ -87,26 +99,80 @@ class ResultDirective(SphinxDirective):
         self.state.nested_parse(lines, self.content_offset, node)
         return node.children
 
-    def figure(self, data, suffix):
+    def figure(self, data, suffix, metadata):
         """The image as a numbered figure."""
         name = hashlib.sha256(data).hexdigest() + suffix
         path = Path(self.env.mystnb_config.output_folder, name)
         path.write_bytes(data)
         uri = "/" + Path(os.path.relpath(path, self.env.srcdir)).as_posix()
-        image = nodes.image(uri=uri, alt=self.options.get("alt", ""))
+        image = nodes.image(uri=uri, alt=self.options.get("alt", metadata.get("alt", "")))
         if "width" in self.options:
             image["width"] = self.options["width"]
         figure = nodes.figure("", image)
         self.set_source_info(figure)
-        for paragraph in self.parse("\n".join(self.content))[:1]:
+        for paragraph in self.parse(self.caption())[:1]:
             figure += nodes.caption("", "", *paragraph.children)
         self.add_name(figure)
         return figure
+
+    def caption(self):
+        """What stands under the figure, Markdown."""
+        if self.content:
+            return "\n".join(self.content)
+        name = f"caption-{self.arguments[0]}"
+        return find(self.env, name, self.get_location())["data"]["text/markdown"]
+
+
+class ComputedFigures(SphinxTransform):
+    """Make a numbered figure of each picture that a notebook shows with its caption below it.
+
+    `suspension.report.show_figure` writes two outputs: the picture, with its name and its alt text
+    in the metadata, and the caption as Markdown, which MyST-NB has parsed by now.
+    """
+
+    default_priority = 100  # before labels are collected
+
+    def apply(self):
+        """Visit the outputs of one page's cells beside what the executed notebook says of them."""
+        executed = Path(self.env.mystnb_config.output_folder, self.env.docname + ".ipynb")
+        if not executed.exists():
+            return
+        cells = json.loads(executed.read_text())["cells"]
+        for cell in list(self.document.findall(is_element("cell_code"))):
+            outputs = [
+                output.get("metadata", {})
+                for output in cells[cell["cell_index"]]["outputs"]
+                if output["output_type"] in ("display_data", "execute_result")
+            ]
+            bundles = list(cell.findall(is_element("mime_bundle")))
+            for i, metadata in enumerate(outputs):
+                if "alt" in metadata:
+                    self.number(bundles[i], bundles[i + 1], metadata)
+
+    def number(self, picture, caption, metadata):
+        """Put a picture and its caption into a figure in the picture's place."""
+        figure = nodes.figure()
+        figure.source, figure.line = picture.source, picture.line
+        picture.replace_self(figure)
+        figure += picture
+        for image in picture.findall(nodes.image):
+            image["alt"] = metadata["alt"]
+        paragraph = next(caption.findall(nodes.paragraph))
+        figure += nodes.caption(paragraph.rawsource, "", *paragraph.children)
+        caption.parent.remove(caption)
+        figure["names"].append(nodes.fully_normalize_name(metadata["scrapbook"]["name"]))
+        self.document.note_explicit_target(figure, figure)
+
+
+def is_element(kind):
+    """A condition for MyST-NB's containers of one kind."""
+    return lambda node: isinstance(node, nodes.container) and node.get("nb_element") == kind
 
 
 def setup(app):
     """Connect to Sphinx."""
     app.add_role("result", ResultRole())
     app.add_directive("result", ResultDirective)
+    app.add_transform(ComputedFigures)
     app.connect("env-before-read-docs", notebooks_first)
     return {"parallel_read_safe": False, "parallel_write_safe": True}

@@ -18,10 +18,10 @@ def plot_errors(x, errors, ax=None):
         A curve for each name.
     """
     ax = axes_or_new(ax)
-    for k, (name, error) in enumerate(errors.items()):
+    for i, (name, error) in enumerate(errors.items()):
         at = x[name] if isinstance(x, dict) else x
-        style = LINES[k % len(LINES)]
-        ax.loglog(at, error, ls=style, marker=MARKERS[k % len(MARKERS)], mfc="none", label=name)
+        style = {"ls": LINES[i % len(LINES)], "marker": MARKERS[i % len(MARKERS)], "mfc": "none"}
+        ax.loglog(at, error, **style, label=name)
     ax.legend()
     return ax
 
@@ -44,17 +44,21 @@ def plot_seen_mode(dts, seen, true, figure):
     dts : array_like, shape (n,)
         Time steps, s.
     seen : dict of str to array_like of complex, shape (n,)
-        Eigenvalue that each method's runs show, 1/s.
+        Eigenvalue that each method's runs show, 1/s (`suspension.accuracy.seen_mode`).
     true : complex
-        Eigenvalue of the mode, 1/s.
+        Eigenvalue of the mode, 1/s, with a positive imaginary part.
     """
-    left, right = figure.subplots(1, 2)
+    left, right = figure.subplots(1, 2, gridspec_kw={"wspace": 0.08})
     for (name, value), style in zip(seen.items(), LINES):
         left.semilogx(dts, value.imag / true.imag, ls=style, label=name)
         right.semilogx(dts, -value.real / np.abs(value), ls=style)
+    nyquist = np.pi / (np.asarray(dts) * true.imag)
+    left.semilogx(dts, nyquist, color="k", lw=0.8, label="Nyquist")
     right.axhline(-true.real / abs(true), color="k", lw=0.6)
-    left.set(xlabel=r"$\Delta t$ (s)", ylabel="frequency, computed / true")
-    right.set(xlabel=r"$\Delta t$ (s)", ylabel="damping ratio", ylim=(-0.3, 0.6))
+    left.set(ylabel="frequency, computed / true", ylim=(0, 2))
+    right.set(ylabel="damping ratio", ylim=(-0.3, 0.6))
+    for ax in (left, right):
+        ax.set(xlabel=r"$\Delta t$ (s)", xlim=(dts[0], dts[-1]))
     figure.legend(loc="outside upper center", ncols=3)
     return left, right
 

@@ -7,6 +7,8 @@ from matplotlib.animation import FuncAnimation
 from suspension import _checks
 from suspension.course import Hgauss, the_robot
 from suspension.figures.style import COLOURS
+from suspension.road import profile
+from suspension.robot import Robot
 
 __all__ = ["RobotDrawing", "animate_robot", "film"]
 
@@ -41,7 +43,7 @@ class RobotDrawing:
         """
         x = X + np.array([-self.robot.L1, self.robot.L2])
         y = w[0] + w[2] * (x - X)
-        h = self.road(x)[0]
+        h = profile(self.road, x)[0]
         foot = np.maximum(y, h) if gaps is None else h + gaps
         top = y + self.body
         self.line.set_data(x, top)
@@ -54,7 +56,7 @@ class RobotDrawing:
     def ground(self, left, right):
         """Draw the road from `left` to `right`, m, and fit the view to it in true proportions."""
         x = np.linspace(left, right, 2001)
-        H = self.road(x)[0]
+        H = profile(self.road, x)[0]
         self.ax.fill_between(x, H, H.min() - 0.03, color="0.88", lw=0)
         self.ax.plot(x, H, color="0.45", lw=1)
         self.ax.set(xlim=(left, right), ylim=(H.min() - 0.03, H.max() + 2.2 * self.body))
@@ -101,7 +103,7 @@ def animate_robot(W, T, v, steps_per_frame=1, *, robot=None, road=None):
     W = _checks.array("W", W, (4, len(T)))
     X = _checks.number("v", v) * T
     stride = _checks.whole("steps_per_frame", steps_per_frame, 1)
-    robot = the_robot() if robot is None else robot
+    robot = the_robot() if robot is None else _checks.instance("robot", robot, Robot)
     figure, ax = plt.subplots(figsize=(7.2, 2.2), layout="constrained")
     drawing = RobotDrawing(ax, robot, Hgauss if road is None else road)
     drawing.ground(min(X.min(), 0) - 2 * robot.L1, max(X.max(), 0.5) + 2 * robot.L2)

@@ -20,7 +20,26 @@ def _speed_axis(ax, v):
     ax.set(xlim=(v[0], v[-1]), xlabel="speed $v$ (m/s)")
 
 
-def plot_margin(v, N, critical, asked=(), ax=None):
+def _labels_apart(ax, speeds, labels, **style):
+    """Write labels above the axes, those of neighbouring speeds in rows below each other."""
+    left, right = np.log(ax.get_xlim())
+    ends = []  # of each row, as a part of the axes' width
+    for speed, label in zip(speeds, labels):
+        middle = (np.log(speed) - left) / (right - left)
+        row = next((i for i, end in enumerate(ends) if end < middle - 0.04), len(ends))
+        ends[row : row + 1] = [middle + 0.04]
+        height = 0.96 - 0.07 * row
+        ax.text(speed, height, label, transform=ax.get_xaxis_transform(), **style)
+
+
+def _hatch(ax, ranges, label):
+    """Hatch ranges of speed over the whole height."""
+    style = {"facecolor": "none", "edgecolor": "0.7", "hatch": "//", "lw": 0, "zorder": 0.5}
+    for i, (left, right) in enumerate(ranges):
+        ax.axvspan(left, right, label=label if i == 0 else None, **style)
+
+
+def plot_margin(v, N, critical, asked=(), beyond=(), ax=None):
     """Least force of each wheel against speed, with the speeds at which contact is lost shaded.
 
     Parameters
@@ -33,32 +52,41 @@ def plot_margin(v, N, critical, asked=(), ax=None):
         Critical speeds, m/s.
     asked : sequence of float
         Speeds to mark on the curve of the margin.
+    beyond : array_like, shape (m, 2)
+        Ranges of speed to hatch: a spring is compressed further than it was measured.
     """
     ax = axes_or_new(ax)
     margin = np.min(N, axis=0)
+    _speed_axis(ax, v)
     edges = [v[0], *critical, v[-1]]
+    above = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
     for left, right in pairwise(edges):
         lost = np.interp(np.sqrt(left * right), v, margin) < 0
         if lost:
             ax.axvspan(left, right, color="#fbe3d6", lw=0, zorder=0)
-        place = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
-        ax.text(np.sqrt(left * right), 1.01, "lost" if lost else "kept", **place)
+        if right > left * (v[-1] / v[0]) ** 0.06:  # else there is no room for a word
+            ax.text(np.sqrt(left * right), 1.01, "lost" if lost else "kept", **above)
+    _hatch(ax, beyond, r"spring beyond $\delta_{\max}$")
     ax.axhline(0, color="0.2", lw=0.9)
-    ax.semilogx(v, N[0], color="C0", label="rear wheel")
-    ax.semilogx(v, N[1], "--", color="C1", label="front wheel")
-    ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label="critical speeds", zorder=4)
-    for speed in critical:
-        label = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
-        ax.text(speed, 5.2, f"{speed:.3g}", ha="center", weight="bold", bbox=label, zorder=5)
-    at = np.interp(asked, v, margin)
-    ax.plot(asked, at, "o", color="k", mfc="white", ms=6, label="asked in the problem", zorder=4)
-    _speed_axis(ax, v)
+    ax.plot(v, N[0], color=COLOURS[0], ls=LINES[0], label=f"{WHEEL[1]} wheel")
+    ax.plot(v, N[1], color=COLOURS[1], ls=LINES[1], label=f"{WHEEL[2]} wheel")
+    if len(critical):
+        ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label="critical speeds", zorder=4)
+    if len(asked):
+        at = np.interp(asked, v, margin)
+        marks = {"color": "k", "mfc": "white", "ms": 6, "zorder": 4}
+        ax.plot(asked, at, "o", label="asked in the problem", **marks)
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.16 * (high - low))  # room for the labels
+    box = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
+    style = {"ha": "center", "va": "top", "weight": "bold", "bbox": box, "zorder": 5}
+    _labels_apart(ax, critical, [f"{speed:.3g}" for speed in critical], **style)
     ax.set(ylabel="least normal force (N)")
-    ax.legend(loc="lower right")
+    ax.legend(loc="lower left", framealpha=0.85, frameon=True, edgecolor="none")
     return ax
 
 
-def plot_margin_map(v, k, margin, fitted, interval, asked=(), ax=None):
+def plot_margin_map(v, k, margin, fitted, interval, asked=(), beyond=None, ax=None):
     """The margin over speed and stiffness, with the line on which the verdict turns.
 
     Parameters
@@ -71,19 +99,25 @@ def plot_margin_map(v, k, margin, fitted, interval, asked=(), ax=None):
         Stiffness of Part I and its confidence interval, N/m.
     asked : sequence of float
         Speeds to mark.
+    beyond : tuple of three array_like, shapes (i,), (j,) and (j, i), optional
+        Speeds, stiffnesses, and the largest compression of a spring over that at which it was
+        measured; hatched where above 1.
     """
     ax = axes_or_new(ax)
     levels = [-30, -20, -10, -5, 0, 1, 2, 4, 7]
     filled = ax.contourf(
-        v, k, margin, levels, cmap="RdBu", norm=TwoSlopeNorm(0, -30, 7), extend="min"
+        v, k, margin, levels, cmap="RdBu", norm=TwoSlopeNorm(0, -30, 7), extend="both"
     )
+    if beyond is not None:
+        hatched = ax.contourf(*beyond, [1, np.inf], colors="none", hatches=["//"])
+        hatched.set(edgecolor="0.45", linewidth=0)
     ax.contour(v, k, margin, [0], colors="k", linewidths=1.6)
     ax.axhspan(*interval, color="0.2", alpha=0.18, lw=0)
     ax.axhline(fitted, color="0.2", lw=1, ls="--")
     ax.plot(asked, [fitted] * len(asked), "o", color="k", mfc="white", ms=6)
     _speed_axis(ax, v)
     ax.grid(False)
-    ax.set(ylabel="stiffness $k$ (N/m)")
+    ax.set(ylabel="stiffness $k$ (N/m)", ylim=(k[0], k[-1]))
     ax.figure.colorbar(filled, ax=ax, label="margin (N)")
     return ax
 
@@ -100,15 +134,19 @@ def plot_sensitivities(speeds, percent, ax=None):
     """
     ax = axes_or_new(ax)
     place = np.arange(len(percent))
-    for i, (speed, hatch) in enumerate(zip(speeds, ("", "//", "..", "xx", "--"))):
+    width = 0.8 / max(len(speeds), 1)
+    hatches = ("", "//", "..", "xx", "--")
+    for i, speed in enumerate(speeds):
         height = [values[i] for values in percent.values()]
-        offset = (i - (len(speeds) - 1) / 2) * 0.27
-        ax.bar(place + offset, height, 0.25, hatch=hatch, ec="white", label=f"at {speed:.3g} m/s")
+        offset = (i - (len(speeds) - 1) / 2) * width
+        style = {"hatch": hatches[i % len(hatches)], "ec": "white"}
+        ax.bar(place + offset, height, 0.93 * width, label=f"at {speed:.3g} m/s", **style)
     ax.axhline(0, color="0.2", lw=0.8)
     ax.set_xticks(place, list(percent), fontsize=12)
     ax.set(ylabel="change of critical speed (%)\nfor 1 % more")
     ax.grid(axis="x")
-    ax.legend(ncols=3)
+    if len(speeds):
+        ax.legend(ncols=3)
     return ax
 
 

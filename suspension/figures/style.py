@@ -1,4 +1,4 @@
-"""What all figures share: colours and line styles of the wheels, symbols, and an axes to draw on."""
+"""What all figures share: colours and lines of the wheels, symbols, and an axes to draw on."""
 
 import matplotlib.pyplot as plt
 

@@ -1,31 +1,12 @@
-"""The report's words: sentences and tables made from numbers, as Markdown."""
+"""The report's words: every computed sentence, table and caption, as Markdown.
 
-from suspension.report.rows import (
-    error_rows,
-    flight_row,
-    lost_speeds,
-    matrix_rows,
-    mode_rows,
-    stability_rows,
-    table,
-    verdict,
-)
-from suspension.report.show import answer, say, source
-from suspension.report.words import confidence, join, ranges
+`words` writes numbers and lists, `rows` makes tables, `show` displays them in a notebook; the other
+modules hold the sentences, one module for each part of the book or for what several parts share
+(`stability`, `verdicts`). A sentence is a function of numbers, fits, runs or robots that returns
+Markdown, with a branch for every case.
+"""
 
-__all__ = [
-    "answer",
-    "confidence",
-    "error_rows",
-    "flight_row",
-    "join",
-    "lost_speeds",
-    "matrix_rows",
-    "mode_rows",
-    "ranges",
-    "say",
-    "source",
-    "stability_rows",
-    "table",
-    "verdict",
-]
+from suspension.report.rows import table
+from suspension.report.show import answer, say, show_figure, source
+
+__all__ = ["answer", "say", "show_figure", "source", "table"]

@@ -1,82 +1,114 @@
 """Rows of the report's tables, a dict each, and a Markdown table made from them."""
 
+import math
+
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.report.words import join
+from suspension.report.words import fixed, number, seconds
 
 __all__ = [
     "error_rows",
-    "flight_row",
-    "lost_speeds",
     "matrix_rows",
+    "mode_name",
     "mode_rows",
     "stability_rows",
     "table",
     "verdict",
 ]
 
+FIGURES = set("0123456789-−+–<>")  # how a number begins; a dash stands for none
+
 
 def table(rows):
     """A Markdown table from a list of dicts; columns of numbers are set to the right.
 
-    >>> print(table([{"scheme": "Euler", "error": "-0.2"}]))
+    >>> print(table([{"scheme": "Euler", "error": "−0.2"}]))
     | scheme | error |
     |:--|--:|
-    | Euler | -0.2 |
+    | Euler | −0.2 |
     """
     names = list(rows[0])
     cells = [[str(row[name]) for name in names] for row in rows]
-    numeric = [all(cell[:1] in set("0123456789-+–") for cell in column) for column in zip(*cells)]
+    numeric = [all(cell[:1] in FIGURES for cell in column) for column in zip(*cells)]
     rule = "|" + "|".join("--:" if right else ":--" for right in numeric) + "|"
     head, *body = ["| " + " | ".join(line) + " |" for line in [names, *cells]]
     return "\n".join([head, rule, *body])
 
 
-def verdict(trajectory):
-    """One row of a verdict table: speed, kept or lost, which wheel, when, where, and the margin.
+def verdict(run, compression):
+    """One row of a verdict table: kept or lost, where, each wheel's least force, and the spring.
 
-    The margin is the smallest sampled normal force.
+    Parameters
+    ----------
+    run : Trajectory
+    compression : float
+        Largest compression of a spring while both wheels press, over delta_max.
     """
-    loss = trajectory.loss
+    loss = run.loss
     return {
-        "v (m/s)": f"{trajectory.v:g}",
+        "v (m/s)": f"{run.v:g}",
         "contact": "lost" if loss else "kept",
         "wheel": WHEEL[loss.wheel] if loss else "–",
-        "at t (s)": f"{loss.t:.4f}" if loss else "–",
-        "at X (m)": f"{trajectory.v * loss.t:.3f}" if loss else "–",
-        "smallest force (N)": f"{trajectory.N.min():.2f}",
+        "at t (s)": seconds(loss.t, run.dt) if loss else "–",
+        "at X (m)": seconds(run.v * loss.t, run.v * run.dt) if loss else "–",
+        "least $N_1$ (N)": _least(run, 0),
+        "least $N_2$ (N)": _least(run, 1),
+        r"largest $\delta/\delta_{\max}$": fixed(compression, 2),
     }
 
 
-def lost_speeds(trajectories):
-    """The speeds at which contact was lost, in words."""
-    speeds = join(f"{run.v:g}" for run in trajectories if run.loss)
-    return speeds if speeds == "none" else f"{speeds} m/s"
+def _least(run, wheel):
+    """The least force of a wheel, and whether it comes before or after the first loss."""
+    N = run.N[wheel]
+    if run.loss is None:
+        return fixed(N.min(), 2)
+    t = run.T[N.argmin()]
+    if t == run.loss.t:
+        when = "at the loss"
+    else:
+        when = "before" if t < run.loss.t else "after"
+    return f"{fixed(N.min(), 2)} ({when})"
 
 
 def matrix_rows(A):
     """The entries of a matrix, each under its row and column."""
     return [
-        {"$A_{ij}$": f"$i = {i}$", **{f"$j = {j}$": f"{a:.6g}" for j, a in enumerate(row, 1)}}
-        for i, row in enumerate(np.asarray(A) + 0.0, 1)
+        {"$A_{ij}$": f"$i = {i}$", **{f"$j = {j}$": _entry(a) for j, a in enumerate(row, 1)}}
+        for i, row in enumerate(np.asarray(A), 1)
     ]
 
 
+def _entry(a):
+    return f"{a:.0f}" if a in (0, 1) else number(a, 6)
+
+
+def mode_name(robot, k):
+    """Whether mode `k`, counted from 0, is more of a heave or of a pitch.
+
+    The two are compared at the wheel that is further from the centre of mass.
+    """
+    heave, _, pitch, _ = np.abs(robot.eigenvectors[:, k])
+    return "heave" if heave > max(robot.L1, robot.L2) * pitch else "pitch"
+
+
 def mode_rows(robot):
-    """Eigenvalues with what they mean: natural frequency, damping ratio, heave or pitch."""
-    rows = []
-    for k, (z, w) in enumerate(zip(robot.eigenvalues, robot.eigenvectors.T), 1):
-        rows.append(
-            {
-                "$k$": k,
-                r"$\lambda_k$ (1/s)": f"{z:.4f}".replace("j", "i"),
-                "mode": "heave" if abs(w[0]) > robot.L2 * abs(w[2]) else "pitch",
-                "natural frequency (Hz)": f"{abs(z) / (2 * np.pi):.3f}",
-                "damping ratio": f"{-z.real / abs(z):.4f}",
-            }
-        )
-    return rows
+    """Eigenvalues with what they mean: heave or pitch, natural frequency, damping ratio."""
+    return [
+        {
+            "$k$": k + 1,
+            r"$\lambda_k$ (1/s)": _complex(z),
+            "mode": mode_name(robot, k),
+            "natural frequency (Hz)": fixed(abs(z) / (2 * np.pi), 3),
+            "damping ratio": fixed(-z.real / abs(z), 4),
+        }
+        for k, z in enumerate(robot.eigenvalues)
+    ]
+
+
+def _complex(z):
+    sign = "−" if z.imag < 0 else "+"
+    return f"{fixed(z.real, 4)} {sign} {fixed(abs(z.imag), 4)}i"
 
 
 def stability_rows(scheme, eigenvalues, dts):
@@ -85,37 +117,31 @@ def stability_rows(scheme, eigenvalues, dts):
     return [
         {
             r"$\Delta t$ (s)": f"{dt:g}",
-            r"$\max_k \lvert R(\lambda_k\Delta t)\rvert$": f"{r:.6f}",
+            r"$\max_k \lvert R(\lambda_k\Delta t)\rvert$": fixed(r, 6) if r < 100 else number(r, 4),
             "absolutely": "**stable**" if scheme.is_stable(eigenvalues, dt) else "**unstable**",
         }
         for dt, r in zip(dts, growth)
     ]
 
 
-def error_rows(trajectories, theta):
+def error_rows(runs, theta):
     """Final pitch of each run beside the exact one, `theta` in rad."""
     return [
         {
             r"$\Delta t$ (s)": f"{run.dt:g}",
-            r"exact $\theta(t_\text{final})$": f"{theta:.9f}",
-            r"computed $\tilde\theta(t_\text{final})$": f"{run.W[2, -1]:.9g}",
-            r"$\lvert\theta - \tilde\theta\rvert$": f"{abs(run.W[2, -1] - theta):.3e}",
+            r"exact $\theta(t_\text{final})$": fixed(theta, 10),
+            r"computed $\tilde\theta(t_\text{final})$": _pitch(run.W[2, -1]),
+            r"$\lvert\theta - \tilde\theta\rvert$": _error(run.W[2, -1] - theta),
         }
-        for run in trajectories
+        for run in runs
     ]
 
 
-def flight_row(flight, robot):
-    """One row of a table of flights: how many, how long, how high, how hard, and settled when."""
-    landings = [event for event in flight.events if event.kind == "landing"]
-    hardest = max(landings, key=lambda event: event.force, default=None)
-    touch_down = f"{hardest.force:.1f} ({WHEEL[hardest.wheel]})" if hardest else "–"
-    return {
-        "v (m/s)": f"{flight.v:g}",
-        "flights": sum(event.kind == "lift-off" for event in flight.events),
-        "in the air: rear, front (s)": "{:.3f}, {:.3f}".format(*flight.airtime),
-        "highest: rear, front (mm)": "{:.1f}, {:.1f}".format(*1000 * flight.gaps.max(axis=1)),
-        "hardest touch-down (N)": touch_down,
-        "largest force (N)": f"{flight.N.max():.1f}",
-        "settled at (s)": f"{flight.settled(robot):.2f}",
-    }
+def _pitch(theta):
+    if not math.isfinite(theta):
+        return "–"
+    return fixed(theta, 10) if abs(theta) < 10 else number(theta, 4)
+
+
+def _error(difference):
+    return number(abs(difference), 3) if math.isfinite(difference) else "> 10³⁰⁸"

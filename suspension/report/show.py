@@ -1,21 +1,48 @@
-"""Show computed Markdown in a notebook, under a name by which other pages quote it."""
+"""Show computed Markdown and figures in a notebook, under a name by which other pages quote them.
+
+The name is written into the metadata of an output where MyST-NB's ``glue()`` writes it too, so that
+the built book finds it there.
+"""
 
 import ast
 import inspect
 
+import matplotlib.pyplot as plt
 from IPython.display import Markdown, display
 
-__all__ = ["answer", "say", "source"]
+__all__ = ["answer", "say", "show_figure", "source"]
 
 
 def say(*parts, name=None):
     """Show Markdown paragraphs that a computation has filled in.
 
-    With a `name`, other pages of the book can quote them: the metadata is what MyST-NB's
-    ``glue()`` writes.
+    With a `name`, other pages of the book can quote them.
     """
-    metadata = {"scrapbook": {"name": name, "mime_prefix": ""}} if name else {}
-    display(Markdown("\n\n".join(parts)), metadata=metadata)
+    display(Markdown("\n\n".join(parts)), metadata=_named(name) if name else {})
+
+
+def _named(name):
+    return {"scrapbook": {"name": name, "mime_prefix": ""}}
+
+
+def show_figure(name, caption, figure=None):
+    """Show a figure and its caption below it, and close it.
+
+    In the built page the two become a numbered figure that is linked to by its name.
+
+    Parameters
+    ----------
+    name : str
+        Label of the figure, ``"fig-fit"``.
+    caption : suspension.report.words.Caption
+        Markdown of the caption, one paragraph, and the text for those who cannot see the figure.
+    figure : matplotlib.figure.Figure, optional
+        The current figure if not given.
+    """
+    figure = plt.gcf() if figure is None else figure
+    display(figure, metadata=_named(name) | {"alt": caption.alt})
+    plt.close(figure)
+    say(caption.text, name=f"caption-{name}")
 
 
 def answer(item, *parts):

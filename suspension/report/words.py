@@ -5,8 +5,10 @@ A minus is a true minus sign, powers of ten are written as such, units stand bes
 """
 
 import math
+from typing import NamedTuple
 
 __all__ = [
+    "Caption",
     "confidence",
     "count",
     "fixed",
@@ -17,6 +19,7 @@ __all__ = [
     "pvalue",
     "quantity",
     "ranges",
+    "seconds",
     "speed_list",
 ]
 
@@ -24,11 +27,18 @@ SPACE = "\u00a0"  # does not break a line
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+class Caption(NamedTuple):
+    """What stands under a figure, Markdown, and the plain text for those who cannot see it."""
+
+    text: str
+    alt: str
+
+
 def number(x, digits=3):
     """A number in significant digits, with powers of ten where it is very large or small.
 
     >>> number(-24.567), number(3.736e-05), number(1200), number(0.0), number(2.345e20, 2)
-    ('−24.6', '3.74 × 10⁻⁵', '1200', '0', '2.3 × 10²⁰')
+    ('−24.6', '3.74\\xa0×\\xa010⁻⁵', '1200', '0', '2.3\\xa0×\\xa010²⁰')
     """
     x = float(x)
     if not math.isfinite(x):
@@ -63,6 +73,15 @@ def quantity(x, unit, digits=3):
     '0.0165\\xa0m'
     """
     return number(x, digits) + SPACE + unit
+
+
+def seconds(t, dt):
+    """A time read from samples `dt` apart, with the decimals it has; lengths alike.
+
+    >>> seconds(0.17400000000000002, 0.001), seconds(0.0565, 0.0005), seconds(0.7, 0.2)
+    ('0.174', '0.0565', '0.7')
+    """
+    return fixed(t, max(0, math.ceil(-math.log10(dt) - 1e-9)))
 
 
 def percent(fraction, digits=2):

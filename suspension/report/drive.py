@@ -1,0 +1,101 @@
+"""The experiments of the page with the sliders, in words that fit the spring."""
+
+import numpy as np
+
+from suspension.report.words import fixed, join, number, speed_list
+
+__all__ = ["experiments"]
+
+
+def experiments(robot, critical, flips, limit, slider):
+    """Five experiments, a numbered list.
+
+    Parameters
+    ----------
+    robot : Robot
+    critical : sequence of float
+        Critical speeds within the slider's range, m/s.
+    flips : sequence of float
+        Stiffnesses at which the verdict turns at 5 m/s, within the slider's range, N/m.
+    limit : float
+        Largest stable step of RK4, s.
+    slider : sequence of float
+        Time steps that can be chosen, s.
+    """
+    texts = [_faster(critical), _blow_up(limit, slider), _wrong(slider), _spring(flips)]
+    swing = _in_step(robot)
+    if swing:
+        texts.append(swing)
+    return "\n".join(f"{i}. {text}" for i, text in enumerate(texts, 1))
+
+
+def _faster(critical):
+    start = (
+        "**Faster, and safer?** Step 1 ms, stiffness as fitted. Push v from 0.25 m/s to the end "
+        "and watch the margin: its sign "
+    )
+    if not len(critical):
+        return start + "does not turn anywhere on the slider."
+    return start + f"turns at {speed_list(critical)}."
+
+
+def _blow_up(limit, slider):
+    start = "**Blow it up.** RK4 at v = 1.2 m/s. "
+    longer = [dt for dt in slider if dt > limit]
+    if not longer:
+        return start + (
+            "Lengthen the step to the end of the slider: every step there is shorter than the "
+            f"largest stable one, {_ms(limit)}, and nothing blows up. Soften or stiffen the spring "
+            "and watch the four points move."
+        )
+    first = min(longer)
+    last = max((dt for dt in slider if dt <= limit), default=None)
+    step = f"from {_ms(last).removesuffix(' ms')} to {_ms(first)}" if last else f"to {_ms(first)}"
+    return start + (
+        f"Lengthen the step {step}: the largest stable one is {_ms(limit)}. Which of the four "
+        "points leaves the region first?"
+    )
+
+
+def _wrong(slider):
+    return (
+        f"**Stable, and wrong.** The same with Crank-Nicolson, up to {_ms(max(slider))}. Nothing "
+        "blows up. Compare with the faint curve behind."
+    )
+
+
+def _spring(flips):
+    start = "**Choose the spring.** At v = 5 m/s, step 1 ms, soften and stiffen the spring. "
+    if not len(flips):
+        return start + "The verdict stays, but the margin does not: how close does it come to zero?"
+    return start + f"The verdict turns at {join(number(k) for k in flips)} N/m."
+
+
+def _in_step(robot):
+    """The speeds at which the rear wheel meets the bump in or out of step with the heave."""
+    heave = max(robot.eigenvalues, key=lambda z: _heave_share(robot, z))
+    if heave.imag == 0:
+        return ""
+    period = 2 * np.pi / abs(heave.imag)
+    one = (robot.L1 + robot.L2) / period
+    return (
+        f"**In step, out of step.** Compare v = {number(one)} with {number(2 * one)} m/s: the rear "
+        "wheel meets the bump one heave period, or half of one, after the front wheel. One builds "
+        "the heave up, the other takes it away."
+    )
+
+
+def _heave_share(robot, z):
+    """How much of a mode is heave, 0 to 1."""
+    k = np.abs(robot.eigenvalues - z).argmin()
+    heave, _, pitch, _ = np.abs(robot.eigenvectors[:, k])
+    return heave / (heave + max(robot.L1, robot.L2) * pitch)
+
+
+def _ms(t):
+    """A time in milliseconds, with as many decimals as it needs.
+
+    >>> _ms(0.05), _ms(0.0743633)
+    ('50 ms', '74.4 ms')
+    """
+    return f"{fixed(1000 * t, 0 if abs(1000 * t - round(1000 * t)) < 1e-9 else 1)} ms"

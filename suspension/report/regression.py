@@ -1,0 +1,230 @@
+"""Sentences of Part I: the fit, what is known of its coefficients, and the springs they make."""
+
+import math
+
+import numpy as np
+from scipy import stats
+
+from suspension.report.rows import table
+from suspension.report.words import (
+    SPACE,
+    Caption,
+    count,
+    fixed,
+    interval,
+    join,
+    number,
+    percent,
+    pvalue,
+    quantity,
+)
+
+__all__ = [
+    "coefficients",
+    "ellipse_figure",
+    "fit_figure",
+    "fit_plot",
+    "intervals",
+    "joint_intervals",
+    "linearity",
+    "residuals",
+    "residuals_figure",
+    "stiffness",
+    "summary",
+]
+
+KINDS = (
+    ("joint, p = 3 (the course's)", "scheffe", 3),
+    ("joint, p = 2", "scheffe", 2),
+    ("Bonferroni, two at once", "bonferroni", 2),
+    ("one at a time", "individual", 1),
+)
+FEELS = "../notebooks/01-regression.ipynb#which-stiffness-does-the-robot-feel"
+NAMES = {0: r"the preload $\beta_0$", 2: r"the curvature $\beta_2$"}
+
+
+def coefficients(fit):
+    """The estimates with their standard errors, and the scatter of the readings."""
+    rows = [
+        {
+            "coefficient": rf"$\beta_{j}$",
+            "estimate (N)": fixed(fit.beta[j], 4),
+            "standard error (N)": fixed(fit.results.bse.iloc[j], 4),
+        }
+        for j in range(3)
+    ]
+    free = int(fit.results.df_resid)
+    return (
+        f"{table(rows)}\n\nThe residual standard deviation is "
+        f"{quantity(fit.results.mse_resid**0.5, 'N', 2)}, with "
+        f"{count(free, 'degree of freedom', 'degrees of freedom')}."
+    )
+
+
+def fit_figure(fit):
+    """Caption of the fit."""
+    bend = fit.beta[2] / abs(fit.beta[1])
+    shape = "a nearly straight line" if abs(bend) < 0.05 else "a parabola that bends "
+    if abs(bend) >= 0.05:
+        shape += "upwards" if bend > 0 else "downwards"
+    caption = (
+        "**Question 1(i).** Force against relative displacement: data, least-squares fit and the "
+        f"95{SPACE}% confidence band of the mean force."
+    )
+    alt = (
+        f"Spring force against relative displacement: {count(int(fit.results.nobs), 'reading')} "
+        f"and the fitted curve, {shape}, with the confidence band of the mean force."
+    )
+    return Caption(caption, alt)
+
+
+def fit_plot():
+    """Answer 1(i)."""
+    return "Data and best fit are in one plot: [the fit](../notebooks/01-regression.ipynb#fig-fit)."
+
+
+def stiffness(fit):
+    """Answer 1(ii)."""
+    return (
+        rf"$k_1 = \hat\beta_1/\delta_{{\max}} = {_plain(fit.stiffness, 1)}\ \text{{N/m}}$, with a "
+        f"95{SPACE}% confidence interval of {_stiffness_interval(fit)} for this coefficient alone."
+    )
+
+
+def _plain(x, decimals):
+    """A number for use in mathematics, where a minus is a hyphen."""
+    return fixed(x, decimals).replace("−", "-")
+
+
+def _stiffness_interval(fit):
+    low, high = fit.stiffness_interval()
+    decimals = 0 if high - low > 10 else 1
+    return interval(low, high, "N/m", decimals)
+
+
+def intervals(fit):
+    """The four kinds of interval for the coefficients that a linear spring does not have."""
+    rows = []
+    for name, method, p in KINDS:
+        ends = fit.intervals(method=method, p=p)
+        rows.append(
+            {
+                "interval": name,
+                "half-width (standard errors)": fixed(fit.width(method=method, p=p), 3),
+                r"$\beta_0$ (N)": interval(*ends[0]),
+                r"$\beta_2$ (N)": interval(*ends[2]),
+            }
+        )
+    return table(rows)
+
+
+def joint_intervals(fit):
+    """Answer 1(iii)."""
+    ends = fit.intervals()
+    return (
+        f"The 95{SPACE}% joint confidence intervals are {interval(*ends[0], 'N')} for "
+        rf"$\beta_0^\text{{true}}$ and {interval(*ends[2], 'N')} for $\beta_2^\text{{true}}$."
+    )
+
+
+def ellipse_figure(fit):
+    """Caption of the confidence ellipse."""
+    accepted = fit.linearity().p >= 0.05
+    place = "inside" if accepted else "outside"
+    caption = (
+        rf"The 95{SPACE}% confidence ellipse for $(\beta_0, \beta_2)$ and the boxes that the four "
+        "kinds of interval draw around the estimate (+). The joint box with $p = 2$ encloses the "
+        f"ellipse exactly. The dot is a linear spring; it lies {place} the ellipse."
+    )
+    alt = (
+        "Confidence ellipse for beta 0 and beta 2, tilted, inside the boxes of the joint "
+        f"intervals. The point of a linear spring, the origin, lies {place} it."
+    )
+    return Caption(caption, alt)
+
+
+def linearity(fit):
+    """Answer 1(iv): whether the data justify a linear spring, by the intervals and the F test."""
+    test = fit.linearity()
+    ends = fit.intervals()
+    away = [name for j, name in NAMES.items() if not ends[j, 0] <= 0 <= ends[j, 1]]
+    if not away:
+        where = "Zero lies in both joint intervals"
+    elif len(away) == 2:
+        where = "Zero lies in neither of the joint intervals"
+    else:
+        where = f"Zero does **not** lie in the joint interval of {away[0]}"
+    tested = (
+        rf"the F test of $\beta_0 = \beta_2 = 0$ gives F{SPACE}={SPACE}{_statistic(test)}, "
+        f"{pvalue(test.p)}"
+    )
+    if test.linear:
+        return (
+            f"{where}, and {tested}. The data give no reason to keep a preload or a curvature: a "
+            r"standard linear spring, $F = k\delta$, is justified."
+        )
+    but = "but" if not away else "and"
+    return (
+        f"{where}, {but} {tested}. At the 95{SPACE}% level the data contradict a standard linear "
+        "spring without preload. What follows uses the slope at zero all the same, as the problem "
+        f"asks; [which stiffness the robot feels]({FEELS}) is another question."
+    )
+
+
+def _statistic(test):
+    return number(test.statistic) if math.isfinite(test.statistic) else "∞"
+
+
+def residuals_figure(fit):
+    """Caption of the residuals."""
+    largest = quantity(np.abs(fit.results.resid).max(), "N", 2)
+    caption = (
+        "Residuals against displacement, and ordered against what normal errors would give. The "
+        f"largest is {largest}."
+    )
+    alt = (
+        "Left: residuals against displacement, with a zero line; the largest is "
+        f"{largest}. Right: ordered residuals against normal quantiles with a straight "
+        "reference line."
+    )
+    return Caption(caption, alt)
+
+
+def residuals(fit):
+    """What a cubic term and the neighbouring residuals say about the model."""
+    points = int(fit.results.nobs)
+    if points < 5:
+        return f"With {count(points, 'reading')} there is nothing left to test the model with."
+    p = fit.cubic_pvalue
+    if not math.isfinite(p):
+        return "The parabola goes through every reading: the residuals say nothing."
+    verdict = "insignificant" if p > 0.05 else "**significant**"
+    return f"A cubic term would be {verdict} ({pvalue(p)}). {_neighbours(fit, points)}"
+
+
+def _neighbours(fit, points):
+    correlation = fit.results.resid.autocorr()
+    chance = stats.norm.ppf(0.975) / math.sqrt(points)
+    if not math.isfinite(correlation):
+        return "The residuals are too small to correlate."
+    than = "no more than" if abs(correlation) <= chance else "**more** than"
+    return (
+        f"Neighbouring residuals correlate with {fixed(correlation, 2)}, {than} the "
+        f"±{fixed(chance, 2)} that chance alone gives."
+    )
+
+
+def summary(fit):
+    """What to remember of Part I."""
+    low, high = fit.stiffness_interval()
+    linear = "compatible" if fit.linearity().linear else "**not** compatible"
+    known = percent((high - low) / 2 / fit.stiffness)
+    points = [
+        f"The stiffness is {quantity(fit.stiffness, 'N/m')}, known to about ±{known}.",
+        f"A linear spring is {linear} with the data.",
+        "An interval is only as good as the statement it belongs to: "
+        f"{join(['one coefficient', 'two', 'all'], 'or')}.",
+        "This uncertainty travels on: it decides how well "
+        "[the critical speeds](../notebooks/05-critical-speeds.ipynb) are known.",
+    ]
+    return "\n".join(f"- {point}" for point in points)
