@@ -88,7 +88,8 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
     """Every branch of ``margin(v, k) = 0``, k1 = k2 = k, in a range of speeds and stiffnesses.
 
     Every curve that reaches an edge of the ranges is found there. A closed curve is found if it
-    exists at the stiffness `check`.
+    exists at the stiffness `check`. A curve that leaves the ranges for less than a step (2 per
+    cent) and less than a part in ten thousand may count as one that stays.
 
     Parameters
     ----------
@@ -123,44 +124,52 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
         stiffnesses = critical_stiffness(with_stiffness(kmin), bump, v, kmin, kmax)
         seeds += [(complex(corner.real, np.log(k)), heading) for k in stiffnesses]
 
+    exits = np.array([start for start, _ in seeds])
     found, used = [], set()
     for i, (start, heading) in enumerate(seeds):
         if i in used:
             continue
         used.add(i)
-        curve, way_out = _follow(level, start, heading, corners, step)
-        if way_out is not None and seeds:
-            j = min(range(len(seeds)), key=lambda j: abs(seeds[j][0] - way_out))
-            if j in used and abs(seeds[j][0] - way_out) < step / 10:
-                continue  # already walked from the other side
-            if abs(seeds[j][0] - way_out) < step:
-                used.add(j)
-                curve[-1] = seeds[j][0]
+        curve, j = _follow(level, start, heading, corners, step, exits)
+        if j in used:
+            continue  # already walked from the other side
+        used.add(i if j is None else j)
         found += _cut(level, curve, corners)
     if check is not None:
         for v in critical_speeds(with_stiffness(check), bump, vmin, vmax):
             near = [speed for b in found if (speed := b.speed(check)) is not None]
             if not any(abs(speed / v - 1) < 1e-7 for speed in near):
                 start = complex(np.log(v), np.log(check))
-                curve, _ = _follow(level, start, UP, corners, step)
+                curve, _ = _follow(level, start, UP, corners, step, exits)
+                if curve[-1] != start:
+                    back, _ = _follow(level, start, -UP, corners, step, exits)
+                    curve = back[::-1] + curve[1:]
                 found += _cut(level, curve, corners)
     return found
 
 
-def _follow(level, start, heading, corners, step):
-    """Points along a curve from `start` to an edge or round to the start again.
+def _follow(level, start, heading, corners, step, exits):
+    """Points along a curve from `start` to an edge, or round to the start again.
 
-    Also returned is where it crosses the edge, None if it does not.
+    `exits` are all points at which a curve crosses an edge. Also returned is which of them it is,
+    None if none.
     """
     points, radius = [start], step
     heading = _along(level, start, heading)
     while True:
-        point, radius = _next(level, points[-1], heading, min(step, 2 * radius))
-        heading = (point - points[-1]) / abs(point - points[-1])
-        way_out = _crossing(points[-1], point, corners)
-        if way_out is not None:
-            return [*points, way_out], way_out
+        last = points[-1]
+        point, radius = _next(level, last, heading, min(step, 2 * radius))
+        way_out = _crossing(last, point, corners)
+        while way_out is not None:
+            away = np.abs(exits - way_out) if len(exits) else np.array([np.inf])
+            if away.min() < radius / 10:
+                return [*points, exits[away.argmin()]], int(away.argmin())
+            if radius < FINEST:
+                return [*points, way_out], None
+            point, radius = _next(level, last, heading, radius / 2)
+            way_out = _crossing(last, point, corners)
         points.append(point)
+        heading = (point - last) / abs(point - last)
         if len(points) > 4 and abs(point - start) < radius:
             return [*points[:-1], start], None
 

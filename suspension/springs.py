@@ -77,7 +77,7 @@ def load_spring_data(path=None):
     if not fit.beta[1] > 1e-6 * readings.force.max():
         raise ValueError(
             f"{name}: expected a force that grows with the displacement, got a slope at zero of "
-            f"{fit.stiffness:.4g} N/m"
+            f"{round(fit.stiffness, 6) + 0.0:.4g} N/m"
         )
     data.attrs.update(source=name, notes=readings.notes)
     return data

@@ -91,8 +91,9 @@ def overtravel(robot, bump, limit, vmin, vmax):
     >>> from suspension.road import GaussianBump
     >>> from suspension.robot import Robot
     >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.1, 30).round(2)
-    array([[ 0.39,  0.44],
-           [ 0.72, 30.  ]])
+    array([[ 0.38,  0.41],
+           [ 0.41,  0.44],
+           [ 0.73, 30.  ]])
     """
 
     def excess(x):

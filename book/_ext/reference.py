@@ -25,6 +25,11 @@ BACKTICKS = re.compile(r"(?<![`:\\])`([^`\n]+)`(?!`)")
 CLASS = re.compile(r"(?<![\w.\"'`])((?:\w+\.)*[A-Z]\w*)")
 # Sections of a docstring in which a line that is not indented says a type.
 TYPED = ("Parameters", "Returns", "Attributes", "Yields")
+OPTIONS = {
+    "class": ["   :members:", "   :special-members: __call__"],
+    "data": ["   :no-value:"],
+    "function": [],
+}
 
 
 @cache
@@ -179,8 +184,7 @@ def skip(app, what, name, obj, skipped, options):
 class Rst(SphinxDirective):
     """A directive that writes reStructuredText, which autodoc needs."""
 
-    required_arguments = 1
-    final_argument_whitespace = True
+    has_content = True  # names, between spaces or line ends
 
     def parse(self, text, node):
         """Add what the text says to a node."""
@@ -191,11 +195,11 @@ class Rst(SphinxDirective):
 
 
 class FrontDoor(Rst):
-    """A table of the names that ``import suspension`` gives, in the order of the argument."""
+    """A table of the names that ``import suspension`` gives, in the order of the content."""
 
     def run(self):
         """Make the table."""
-        names, package = self.arguments[0].split(), importlib.import_module(PACKAGE)
+        names, package = " ".join(self.content).split(), importlib.import_module(PACKAGE)
         if sorted(names) != sorted(package.__all__):
             logger.warning("the front door has %s", package.__all__, location=self.get_location())
         text = [".. list-table::", ""]
@@ -220,7 +224,7 @@ class Modules(Rst):
     def run(self):
         """Make the sections."""
         sections = []
-        for name in self.arguments[0].split():
+        for name in " ".join(self.content).split():
             module = f"{PACKAGE}.{name.removesuffix('.*')}"
             sections.append(self.section(module))
             if name.endswith(".*"):
@@ -230,7 +234,8 @@ class Modules(Rst):
 
     def section(self, module):
         """The docstrings of a module, and links to what it has from others."""
-        section = nodes.section("", nodes.title("", "", nodes.literal(text=module)), names=[module])
+        short = nodes.literal(text=module.removeprefix(PACKAGE + "."))
+        section = nodes.section("", nodes.title("", "", short), names=[module])
         self.state.document.note_implicit_target(section, section)
         text = [f".. automodule:: {module}", ""]
         namespace = vars(importlib.import_module(module))
@@ -241,8 +246,7 @@ class Modules(Rst):
             text += [", ".join(link(name, full) for name, full in others.items()) + ".", ""]
         for name in own:
             kind = kind_of(namespace[name])
-            members = ["   :members:", "   :special-members: __call__"] if kind == "class" else []
-            text += [f".. auto{kind}:: {module}.{name}", *members, ""]
+            text += [f".. auto{kind}:: {module}.{name}", *OPTIONS[kind], ""]
         return self.parse(text, section)
 
 

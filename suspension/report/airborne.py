@@ -5,6 +5,7 @@ import numpy as np
 from suspension.forces import WHEEL
 from suspension.report.rows import table
 from suspension.report.words import (
+    SPACE,
     Caption,
     count,
     fixed,
@@ -85,10 +86,10 @@ def who_flies(flights, linear):
         return (
             f"With this spring no wheel leaves the ground at any of the "
             f"{count(len(flights), 'speed')}: each run *is* the linear solution, from beginning to "
-            f"end. The least force, {number(flights[least].N.min(), 2)} N, is that at "
+            f"end. The least force, {number(flights[least].N.min(), 2)}{SPACE}N, is that at "
             f"{speed_list([least])}."
         )
-    claims = join(f"{fixed(linear[v].N.min(), 1)} N at {v:g} m/s" for v in fliers)
+    claims = join(f"{fixed(linear[v].N.min(), 1)}{SPACE}N at {v:g}{SPACE}m/s" for v in fliers)
     every = "each" if len(fliers) == len(flights) else speed_list(fliers)
     return (
         f"Of the {count(len(flights), 'speed')} the robot flies at {every}. Up to the first "
@@ -107,8 +108,8 @@ def _hardness(flights):
     if hard < NO_JUMP:
         return "Every landing is smooth: the force comes back from zero, without a jump."
     words = (
-        f"The hardest touch-down gives {number(hard, 2)} N at once; the largest force in the "
-        f"same runs is {number(largest, 3)} N."
+        f"The hardest touch-down gives {number(hard, 2)}{SPACE}N at once; the largest force in the "
+        f"same runs is {number(largest, 3)}{SPACE}N."
     )
     if hard < 0.3 * largest:
         words += (
@@ -184,21 +185,21 @@ def models(flights, relaxed, robot):
         return f"{words}; some switches exist in one model only."
     if apart < 1e-5:
         return (
-            f"{words}, for a plain reason: its time constant c/k is {number(constant, 2)} ms, and "
-            "it has found its place long before it lands."
+            f"{words}, for a plain reason: its time constant c/k is "
+            f"{number(constant, 2)}{SPACE}ms, and it has found its place long before it lands."
         )
     return (
-        f"{words}: its time constant c/k is {number(constant, 2)} ms, and not every flight is long "
-        "against it."
+        f"{words}: its time constant c/k is {number(constant, 2)}{SPACE}ms, and not every flight "
+        "is long against it."
     )
 
 
 def _time(t):
-    return f"{number(1e6 * t, 2)} µs" if t < 1e-3 else f"{number(1e3 * t, 2)} ms"
+    return f"{number(1e6 * t, 2)}{SPACE}µs" if t < 1e-3 else f"{number(1e3 * t, 2)}{SPACE}ms"
 
 
 def _force(force):
-    return f"{number(1e3 * force, 2)} mN" if force < 0.1 else quantity(force, "N", 2)
+    return f"{number(1e3 * force, 2)}{SPACE}mN" if force < 0.1 else quantity(force, "N", 2)
 
 
 def first_flights(pairs):
@@ -236,7 +237,8 @@ def first_flights(pairs):
     if abs(later) > 1e-5:
         words.append(
             f"The two models part most at {speed_list([v])}: the wheel that relaxes is back "
-            f"{number(1000 * later, 2)} ms later, with {number(force, 2)} N more at once."
+            f"{number(1000 * later, 2)}{SPACE}ms later, with {number(force, 2)}{SPACE}N more at "
+            "once."
         )
     else:
         words.append("Between the two models there is hardly a difference at these speeds.")
@@ -272,10 +274,11 @@ def flight_caption(flights):
     else:
         note = f" At {speed_list(kept)} no wheel leaves the ground; it is the nearest to it."
     text = (
-        f"Runs at {speeds} m/s, wheels following the spring: normal forces (dotted: the linear "
+        f"Runs at {speeds}{SPACE}m/s, wheels following the spring: normal forces (dotted: the "
+        "linear "
         f"model, whose ground may pull) and heights of the wheels above the ground.{note}"
     )
-    columns = " ".join(f"At {flight.v:g} m/s {_story(flight)}." for flight in flights)
+    columns = " ".join(f"At {flight.v:g}{SPACE}m/s {_story(flight)}." for flight in flights)
     alt = (
         f"{count(len(flights), 'column').capitalize()}, one for each speed: normal forces of both "
         f"wheels, and below the heights of the wheels above the ground. {columns}"
@@ -289,18 +292,19 @@ def _story(flight):
     first = flight.events[0]
     rear, front = (fixed(1000 * h, 1) for h in _highest(flight))
     return (
-        f"the {WHEEL[first.wheel]} wheel is the first to lift off, at {fixed(first.t, 3)} s; the "
-        f"rear wheel rises up to {rear} mm, the front wheel up to {front} mm"
+        f"the {WHEEL[first.wheel]} wheel is the first to lift off, at "
+        f"{fixed(first.t, 3)}{SPACE}s; the "
+        f"rear wheel rises up to {rear}{SPACE}mm, the front wheel up to {front}{SPACE}mm"
     )
 
 
 def film_caption(v, told):
     """Caption of the film at `v` in m/s; `told` as `suspension.travel.moments` returns it."""
-    words = join(f"{what} ({fixed(t, 3)} s)" for t, what in told.items())
+    words = join(f"{what} ({fixed(t, 3)}{SPACE}s)" for t, what in told.items())
     flies = any("lifts off" in what for what in told.values())
     hangs = " A wheel in the air hangs from its extended spring." if flies else ""
-    text = f"The robot at {v:g} m/s in true proportions: {words}.{hangs}"
-    alt = f"{count(len(told), 'frame').capitalize()} of the robot at {v:g} m/s: {words}."
+    text = f"The robot at {v:g}{SPACE}m/s in true proportions: {words}.{hangs}"
+    alt = f"{count(len(told), 'frame').capitalize()} of the robot at {v:g}{SPACE}m/s: {words}."
     return Caption(text, alt)
 
 
@@ -315,7 +319,8 @@ def order_caption(v, end, orders):
         Observed when the switches are ignored, and when they are located.
     """
     text = (
-        f"RK4 through a flight at {v:g} m/s: error at $t$ = {fixed(end, 3)} s when the steps "
+        f"RK4 through a flight at {v:g}{SPACE}m/s: error at $t$ = {fixed(end, 3)}{SPACE}s when "
+        "the steps "
         "ignore the switches, and when they are fitted between them."
     )
     alt = (

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension.report.words import fixed, join, number, speed_list
+from suspension.report.words import SPACE, fixed, join, number, speed_list
 
 __all__ = ["experiments"]
 
@@ -50,7 +50,10 @@ def _blow_up(limit, slider):
         )
     first = min(longer)
     last = max((dt for dt in slider if dt <= limit), default=None)
-    step = f"from {_ms(last).removesuffix(' ms')} to {_ms(first)}" if last else f"to {_ms(first)}"
+    if last is None:
+        step = f"to {_ms(first)}"
+    else:
+        step = f"from {1000 * last:g} to {_ms(first)}"
     return start + (
         f"Lengthen the step {step}: the largest stable one is {_ms(limit)}. Which of the four "
         "points leaves the region first?"
@@ -68,7 +71,7 @@ def _spring(flips):
     start = "**Choose the spring.** At v = 5 m/s, step 1 ms, soften and stiffen the spring. "
     if not len(flips):
         return start + "The verdict stays, but the margin does not: how close does it come to zero?"
-    return start + f"The verdict turns at {join(number(k) for k in flips)} N/m."
+    return start + f"The verdict turns at {join(number(k) for k in flips)}{SPACE}N/m."
 
 
 def _in_step(robot):
@@ -79,7 +82,8 @@ def _in_step(robot):
     period = 2 * np.pi / abs(heave.imag)
     one = (robot.L1 + robot.L2) / period
     return (
-        f"**In step, out of step.** Compare v = {number(one)} with {number(2 * one)} m/s: the rear "
+        f"**In step, out of step.** Compare v = {number(one)} with {number(2 * one)}{SPACE}m/s: "
+        "the rear "
         "wheel meets the bump one heave period, or half of one, after the front wheel. One builds "
         "the heave up, the other takes it away."
     )
@@ -96,6 +100,6 @@ def _ms(t):
     """A time in milliseconds, with as many decimals as it needs.
 
     >>> _ms(0.05), _ms(0.0743633)
-    ('50 ms', '74.4 ms')
+    ('50\\xa0ms', '74.4\\xa0ms')
     """
-    return f"{fixed(1000 * t, 0 if abs(1000 * t - round(1000 * t)) < 1e-9 else 1)} ms"
+    return f"{fixed(1000 * t, 0 if abs(1000 * t - round(1000 * t)) < 1e-9 else 1)}{SPACE}ms"

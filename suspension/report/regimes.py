@@ -12,6 +12,7 @@ from suspension.forces import WHEEL
 from suspension.report.data import existence
 from suspension.report.rows import table
 from suspension.report.words import (
+    SPACE,
     Caption,
     confidence,
     count,
@@ -72,10 +73,12 @@ def verdict(edges, lost, beyond=()):
     wide = [edges[i + 1] > WIDE * edges[i] for i in range(len(lost))]
     for i in range(1, len(lost)):
         if not lost[i] and wide[i]:
-            words.append(f"Going faster than {names[i]} m/s is *safer* than going a little slower.")
+            words.append(
+                f"Going faster than {names[i]}{SPACE}m/s is *safer* than going a little slower."
+            )
         elif not lost[i] and i < len(lost) - 1:
             words.append(
-                f"From {names[i]} to {names[i + 1]} m/s it is kept by a hair, in a range too "
+                f"From {names[i]} to {names[i + 1]}{SPACE}m/s it is kept by a hair, in a range too "
                 "narrow to drive in."
             )
     where = beyond_words(edges[0], edges[-1], beyond)
@@ -100,15 +103,15 @@ def _ranges(edges, lost):
     names = _names(edges)
     if len(lost) == 1:
         low, high = (f"{v:g}" for v in edges)
-        return f"{'lost' if lost[0] else 'kept'} at every speed from {low} to {high} m/s"
+        return f"{'lost' if lost[0] else 'kept'} at every speed from {low} to {high}{SPACE}m/s"
     words = []
     for i, gone in enumerate(lost):
         if i == 0:
-            where = f"up to {names[1]} m/s"
+            where = f"up to {names[1]}{SPACE}m/s"
         elif i == len(lost) - 1:
             where = "from there on"
         else:
-            where = f"from {names[i]} to {names[i + 1]} m/s"
+            where = f"from {names[i]} to {names[i + 1]}{SPACE}m/s"
         words.append(f"{'lost' if gone else 'kept'} {where}")
     return join(words)
 
@@ -119,13 +122,13 @@ def beyond_words(low, high, beyond):
     words = []
     for a, b in beyond:
         if a <= low and b >= high:
-            return f"at every speed from {low:g} to {high:g} m/s"
+            return f"at every speed from {low:g} to {high:g}{SPACE}m/s"
         if a <= low:
-            words.append(f"below {number(b)} m/s")
+            words.append(f"below {number(b)}{SPACE}m/s")
         elif b >= high:
-            words.append(f"above {number(a)} m/s")
+            words.append(f"above {number(a)}{SPACE}m/s")
         else:
-            words.append(f"from {number(a)} to {number(b)} m/s")
+            words.append(f"from {number(a)} to {number(b)}{SPACE}m/s")
     return join(words, none="")
 
 
@@ -209,8 +212,8 @@ def afterwards(changed, speeds, extra):
         How much longer the runs were, s.
     """
     looked = (
-        f"continued by {f'{extra:g} s'}, at {count(len(speeds), 'speed')} from "
-        f"{speeds[0]:.3g} to {speeds[-1]:.3g} m/s"
+        f"continued by {extra:g}{SPACE}s, at {count(len(speeds), 'speed')} from "
+        f"{speeds[0]:.3g} to {speeds[-1]:.3g}{SPACE}m/s"
     )
     if not len(changed):
         return (
@@ -227,7 +230,7 @@ def afterwards(changed, speeds, extra):
 def _few(speeds):
     if len(speeds) <= 3:
         return speed_list(speeds)
-    ends = f"{number(min(speeds))} and {number(max(speeds))} m/s"
+    ends = f"{number(min(speeds))} and {number(max(speeds))}{SPACE}m/s"
     return f"{count(len(speeds), 'speed')} between {ends}"
 
 
@@ -330,10 +333,11 @@ def map_caption(stiffness, k, asked, hatched):
         f"{count(len(asked), 'asked speed')}."
     )
     alt = (
-        f"Map of the margin over speed and stiffness, from {number(k[0])} to {number(k[-1])} N/m: "
+        f"Map of the margin over speed and stiffness, from {number(k[0])} to "
+        f"{number(k[-1])}{SPACE}N/m: "
         "red where contact is lost, blue where it is kept, a black line between. A horizontal "
-        f"band marks {number(low)} to {number(high)} N/m around the fitted "
-        f"{number(stiffness.value)} N/m."
+        f"band marks {number(low)} to {number(high)}{SPACE}N/m around the fitted "
+        f"{number(stiffness.value)}{SPACE}N/m."
     )
     if hatched:
         text += r" Hatched: a spring is compressed beyond $\delta_{\max}$."
@@ -369,7 +373,7 @@ def strongest(critical, percent):
     names = _names(critical)
     which = "The critical speed answers" if len(critical) == 1 else "The critical speeds answer"
     words = join(
-        f"{name} at {v} m/s (by {fixed(percent[name][i], 2)} % for one)"
+        f"{name} at {v}{SPACE}m/s (by {fixed(percent[name][i], 2)}{SPACE}% for one)"
         for i, (v, name) in enumerate(zip(names, most))
     )
     return f"{which} most strongly to {words}."
@@ -385,7 +389,7 @@ def travel_caption(edges, beyond, delta_max):
     above = f"It lies above the line {where}." if where else "It stays below the line."
     alt = (
         "Left: largest spring compression against speed with a dashed line at "
-        f"{fixed(1000 * delta_max, 1)} mm, the largest measured displacement. {above} Right: "
+        f"{fixed(1000 * delta_max, 1)}{SPACE}mm, the largest measured displacement. {above} Right: "
         "largest pitch angle against speed."
     )
     return Caption(text, alt)
@@ -405,7 +409,7 @@ def doubt(edges, beyond, ratios, at_rest, delta_max, tilt):
     tilt : float
         Largest pitch while both wheels press, rad.
     """
-    limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)} mm"
+    limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
     where = beyond_words(edges[0], edges[-1], beyond)
     words = []
     if at_rest > 1:
@@ -422,7 +426,7 @@ def doubt(edges, beyond, ratios, at_rest, delta_max, tilt):
         )
     else:
         words.append(f"No spring is compressed beyond {limit}, as far as it was measured.")
-    each = join(f"{fixed(r, 2)} at {v:g} m/s" for v, r in ratios.items())
+    each = join(f"{fixed(r, 2)} at {v:g}{SPACE}m/s" for v, r in ratios.items())
     words.append(rf"In units of $\delta_{{\max}}$ the largest compressions are {each}.")
     words.append(
         f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "

@@ -4,7 +4,7 @@ import numpy as np
 
 from suspension import accuracy
 from suspension.report.rows import table
-from suspension.report.words import Caption, count, fixed, join, number, quantity, speed_list
+from suspension.report.words import SPACE, Caption, count, fixed, join, number, quantity, speed_list
 
 __all__ = [
     "READINGS",
@@ -39,10 +39,11 @@ READINGS = ("state (relative)", "normal force (N)", "time of loss (s)")
 
 def heave_caption(heave, bump):
     """Caption of the exact heave; `heave` is a dict of speed, m/s, to rise above rest, m."""
-    rises = join(f"{fixed(1000 * max(y), 1)} mm at {v:g} m/s" for v, y in heave.items())
+    rises = join(f"{fixed(1000 * max(y), 1)}{SPACE}mm at {v:g}{SPACE}m/s" for v, y in heave.items())
     text = (
         "The exact height of the centre of mass above its rest, against position. It rises by at "
-        f"most {rises}; the bump is {fixed(1000 * bump.height, 1)} mm high. A body that follows "
+        f"most {rises}; the bump is {fixed(1000 * bump.height, 1)}{SPACE}mm high. A body that "
+        "follows "
         "the ground climbs it twice, half the height each time; one that is thrown swings on; one "
         "that is too fast has hardly begun to move when the bump is behind it."
     )
@@ -93,7 +94,8 @@ def convergence_caption(worst, v):
     panels = join(names[j] for j in shown)
     kept = "" if 2 in shown else " Contact is kept at this speed: there is no time of a loss."
     text = (
-        f"Largest error over the run at $v$ = {v:g} m/s against the time step, for {panels}.{kept}"
+        f"Largest error over the run at $v$ = {v:g}{SPACE}m/s against the time step, for "
+        f"{panels}.{kept}"
     )
     falls = join(f"with slope about {number(_order(e[:, 0]), 2)} for {s}" for s, e in worst.items())
     alt = (
@@ -173,7 +175,7 @@ def observed_orders(worst, promised):
 def seen_mode_caption(seen, dts, true):
     """Caption of the mode as the methods see it; arguments as in `figures.plot_seen_mode`."""
     over = {name: _half_a_turn(z, dts) for name, z in seen.items()}
-    passed = join(f"{name} at {number(1000 * dt)} ms" for name, dt in over.items() if dt)
+    passed = join(f"{name} at {number(1000 * dt)}{SPACE}ms" for name, dt in over.items() if dt)
     crossing = (
         "No method's frequency passes Nyquist's."
         if passed == "none"
@@ -220,13 +222,13 @@ def coarse_mode(scheme, lam, dt):
     seen = accuracy.seen_mode(scheme, lam, dt * np.geomspace(1e-3, 1, 200))[-1]
     stable = scheme.is_stable(np.array([lam]), dt)
     how = "absolutely stable as it is" if stable else "where it is not even stable"
-    here = f"At $\\Delta t$ = {dt:g} s, {how}, {scheme.name}"
+    here = f"At $\\Delta t$ = {dt:g}{SPACE}s, {how}, {scheme.name}"
     if lam.imag <= 0:
         shown = f"{here} gives a mode that does not swing"
     else:
         shown = (
-            f"{here} shows a mode of {number(seen.imag / 2 / np.pi)} Hz where the robot has "
-            f"{number(lam.imag / 2 / np.pi)} Hz"
+            f"{here} shows a mode of {number(seen.imag / 2 / np.pi)}{SPACE}Hz where the robot has "
+            f"{number(lam.imag / 2 / np.pi)}{SPACE}Hz"
         )
     if abs(lam.real) < 1e-9 * abs(lam):
         decay = ", and like the robot's it does not decay"
@@ -280,7 +282,7 @@ def work_caption(cost, force, v, tolerances):
         Of the adaptive methods, the loosest first.
     """
     text = (
-        f"Largest error of the normal force at $v$ = {v:g} m/s against evaluations of the "
+        f"Largest error of the normal force at $v$ = {v:g}{SPACE}m/s against evaluations of the "
         "right-hand side: methods with a fixed step, and adaptive ones from SciPy at tolerances "
         f"from {power(tolerances[0])} to {power(tolerances[-1])}."
     )
@@ -288,7 +290,8 @@ def work_caption(cost, force, v, tolerances):
     alt = "Error of the normal force against evaluations of the right-hand side, both logarithmic."
     if len(ordered) > 1:
         alt += (
-            f" The fewest evaluations to an error of {GOAL:g} N are those of {ordered[0][1]}, the "
+            f" The fewest evaluations to an error of {GOAL:g}{SPACE}N are those of "
+            f"{ordered[0][1]}, the "
             f"most those of {ordered[-1][1]}."
         )
     if never:
@@ -320,10 +323,11 @@ def work_verdict(cost, force, names):
     """
     ordered, never = _needed(cost, force, names)
     if not ordered:
-        return f"No run that was tried comes within {GOAL:g} N of the truth."
+        return f"No run that was tried comes within {GOAL:g}{SPACE}N of the truth."
     costs = join(f"{n} evaluations with {name}" for n, name in ordered)
     words = (
-        f"To come within {GOAL:g} N of the truth, the number of steps doubled until it is reached, "
+        f"To come within {GOAL:g}{SPACE}N of the truth, the number of steps doubled until it is "
+        "reached, "
         f"takes {costs}"
     )
     if never:
@@ -350,7 +354,8 @@ def missed_table(speeds, missed, shown=None, force=None):
             "of contact to be overlooked."
         )
     parts = [
-        f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])} m/s, "
+        f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to "
+        f"{number(speeds[-1])}{SPACE}m/s, "
         "beside a critical one, the loss of contact goes unnoticed at",
         table([{"integrator": name, "unnoticed": str(len(vs))} for name, vs in missed.items()]),
     ]
@@ -362,7 +367,8 @@ def missed_table(speeds, missed, shown=None, force=None):
     if shown is not None:
         parts.append(
             f"The figure shows {speed_list([shown])}, where the force falls to "
-            f"{number(force, 2)} N. [The exact margin](../notebooks/05-critical-speeds.ipynb) does "
+            f"{number(force, 2)}{SPACE}N. [The exact "
+            "margin](../notebooks/05-critical-speeds.ipynb) does "
             "not depend on where a method happens to stop."
         )
     return "\n\n".join(parts)

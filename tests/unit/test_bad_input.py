@@ -30,7 +30,7 @@ from suspension.travel import travel
 
 matplotlib.use("Agg")
 
-SECONDS = 2  # to refuse; mostly waiting for a busy machine
+SECONDS = 2  # of computing, to refuse
 GIGABYTES = 1.5  # of addresses, not of memory
 ENOUGH = 30  # bad values for every function
 ROBOT = suspension.Robot(800, 800)
@@ -502,23 +502,23 @@ class TooLong(BaseException):
 
 @contextmanager
 def limits(seconds, gigabytes):
-    """Stop what takes longer; let fail what asks for more memory (where the system can do it)."""
+    """Stop what computes longer; let fail what asks for more memory (where the system can)."""
 
     def stop(*_):
         raise TooLong
 
-    before = signal.signal(signal.SIGALRM, stop)
+    before = signal.signal(signal.SIGPROF, stop)
     memory = resource.getrlimit(resource.RLIMIT_AS)
     if sys.platform == "linux":
         pages = int(open("/proc/self/statm").read().split()[0])
         most = pages * resource.getpagesize() + int(gigabytes * 2**30)
         resource.setrlimit(resource.RLIMIT_AS, (most, memory[1]))
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
         resource.setrlimit(resource.RLIMIT_AS, memory)
 
 

@@ -7,6 +7,7 @@ from importlib import metadata
 from pkgutil import iter_modules
 
 import pytest
+from helpers import ROOT
 
 import suspension
 
@@ -18,7 +19,7 @@ HEAVY = ["pandas", "statsmodels", "matplotlib", "IPython", "ipywidgets", "anywid
 ASK = """
 import sys, time
 start = time.perf_counter()
-import numpy, scipy
+import numpy, scipy.integrate, scipy.linalg, scipy.optimize, scipy.special
 third = time.perf_counter()
 import suspension
 end = time.perf_counter()
@@ -69,3 +70,9 @@ def test_it_loads_nothing_heavy(fresh, record_property):
 
 def test_the_version_is_the_installed_one():
     assert metadata.version("suspension") == suspension.__version__
+
+
+@pytest.mark.parametrize("file, line", [("CITATION.cff", "version: {}"), ("CHANGELOG.md", "## {}")])
+def test_the_version_is_the_one_that_is_cited_and_described(file, line):
+    text = (ROOT / file).read_text(encoding="utf-8")
+    assert f"\n{line.format(suspension.__version__)}" in text

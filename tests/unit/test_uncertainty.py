@@ -58,6 +58,7 @@ SLOW, FAST = (0.38, 0.5), (4.0, 30.0)
     (986.7, 37, *SLOW),
     (1000, 30, 0.4021, 0.45),  # a branch leaves the range of speeds
     (600, 60, 4.9, 6.0),
+    (960, 30, 0.39974, 0.42),  # a branch leaves the range for 4 N/m only
     (405, 15, 2.5, 4.0),
 ])  # fmt: skip
 def test_branches_are_the_critical_speeds_at_every_stiffness(k, half, vmin, vmax):
