@@ -1,6 +1,6 @@
 """Arguments that cannot mean anything are refused, by name, before any computing starts."""
 
-from numbers import Number
+from numbers import Number, Real
 from reprlib import repr as short
 
 import numpy as np
@@ -57,7 +57,8 @@ def whole(name, value, low):
 
 def one_of(name, value, choices):
     """Return `value` if it is among `choices`."""
-    if not any(value is choice or (np.isscalar(value) and value == choice) for choice in choices):
+    comparable = isinstance(value, str | Real)
+    if not (comparable and any(value == choice for choice in choices)):
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
     return value
 

@@ -97,7 +97,9 @@ def over_bump(robot, bump, v, t, w0=None):
     Raises
     ------
     ValueError
-        If `bump` is not a GaussianBump, or another argument is out of its range.
+        If an argument is out of its range, or so extreme that the motion overflows.
+    TypeError
+        If `robot` is not a Robot, or `bump` not a GaussianBump.
 
     Examples
     --------
@@ -105,7 +107,15 @@ def over_bump(robot, bump, v, t, w0=None):
     >>> over_bump(Robot(800, 800), GaussianBump(), v=1.2, t=0.25).round(6)
     array([-0.006496, -0.555074, -0.058938, -5.662561])
     """
-    return Crossing(robot, bump, v, w0)(t)
+    crossing = Crossing(robot, bump, v, w0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        W = crossing(t)
+    if not np.isfinite(W).all():
+        raise ValueError(
+            "robot and bump must be so moderate that double precision can tell the motion, "
+            f"got {robot} and {bump} at v = {crossing.v:g} m/s"
+        )
+    return W
 
 
 class Crossing:

@@ -196,3 +196,11 @@ def test_a_parameter_out_of_range_is_refused_by_name(name, value):
 def test_what_must_be_positive_may_not_be_zero(name):
     with pytest.raises(ValueError, match=f"^{name} must be a finite number > 0, got 0$"):
         Robot(**({"k1": 800, "k2": 800} | {name: 0}))
+
+
+def test_eigenvectors_stand_in_the_order_of_the_eigenvalues():
+    robot = Robot(900, 500, c1=1, c2=3, L1=0.09, L2=0.12)
+    assert robot.eigenvectors.shape == (4, 4)
+    product = robot.A @ robot.eigenvectors
+    np.testing.assert_allclose(product, robot.eigenvectors * robot.eigenvalues, atol=1e-10)
+    assert np.linalg.matrix_rank(robot.eigenvectors) == 4

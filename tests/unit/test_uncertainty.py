@@ -58,7 +58,7 @@ SLOW, FAST = (0.38, 0.5), (4.0, 30.0)
     (986.7, 37, *SLOW),
     (1000, 30, 0.4021, 0.45),  # a branch leaves the range of speeds
     (600, 60, 4.9, 6.0),
-    (960, 30, 0.39974, 0.42),  # a branch leaves the range for 4 N/m only
+    (970, 60, 0.3999, 0.41),  # a branch leaves the range and comes back
     (405, 15, 2.5, 4.0),
 ])  # fmt: skip
 def test_branches_are_the_critical_speeds_at_every_stiffness(k, half, vmin, vmax):
@@ -123,6 +123,12 @@ def test_a_critical_speed_that_leaves_the_range_says_where():
     assert only.born is not None and only.born.why == "range" and only.dies is None
     assert only.low == only.born.v == pytest.approx(5.2, rel=1e-14)
     assert margin(robot_at(only.exists_from), BUMP, 5.2) == pytest.approx(0, abs=1e-6)
+
+
+def test_a_critical_speed_that_hardly_leaves_the_range_is_not_counted_twice():
+    (only,) = intervals(960, 30, 0.39974, 0.41)  # leaves it by 1.5e-5 of its value, for 4 N/m
+    assert only.low == pytest.approx(0.39974, rel=1e-4)
+    assert only.speed == pytest.approx(0.400242, abs=1e-6)
 
 
 def test_a_stiffness_known_exactly_has_critical_speeds_known_exactly():
