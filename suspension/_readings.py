@@ -56,7 +56,7 @@ def read(path):
     try:
         path = Path(path)
         raw = path.read_bytes()
-    except (TypeError, OSError) as error:
+    except (TypeError, ValueError, OSError) as error:
         why = getattr(error, "strerror", None) or "not a path"
         raise ValueError(
             f"path must be a readable .csv or .mat file, got {path}: {why.lower()}"

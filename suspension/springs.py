@@ -346,6 +346,8 @@ def fit_spring(data, delta_max=0.0165):
     ValueError
         If a column is missing or holds anything but finite numbers, or if the displacements are
         fewer than three or too close to each other to tell three coefficients apart.
+    TypeError
+        If `data` is no DataFrame.
     """
     delta_max = _checks.positive("delta_max", delta_max)
     x, force = _columns(data)
@@ -367,6 +369,7 @@ def fit_spring(data, delta_max=0.0165):
 
 def _columns(data):
     """The two columns of a DataFrame as arrays of finite floats."""
+    _checks.instance("data", data, pd.DataFrame)
     missing = [name for name in COLUMNS if name not in data]
     if missing:
         raise ValueError(f"data must have the columns {list(COLUMNS)}, got {list(data)}")

@@ -32,7 +32,8 @@ OF_THE_CONTENT = {
     # A header cell without a header: the corner of a pandas table.
     r'<th(?: class="head")?>(?:<p></p>)?</th>': "<td></td>",
 }
-UNUSED_FILES = "_static/scripts/fontawesome.js*"
+# The icons, and a list of the source pages to which no page links.
+UNUSED_FILES = ["_static/scripts/fontawesome.js*", "_modules/index.html"]
 
 
 def repair(app, exception):
@@ -49,8 +50,9 @@ def repair(app, exception):
             if count:
                 needed.add(pattern)
         path.write_text(text)
-    for path in Path(app.outdir).glob(UNUSED_FILES):
-        path.unlink()
+    for pattern in UNUSED_FILES:
+        for path in Path(app.outdir).glob(pattern):
+            path.unlink()
     for pattern in OF_THE_THEME.keys() - needed:
         logger.warning("no page needs this repair any more: %s", pattern)
 
