@@ -57,7 +57,7 @@ def whole(name, value, low):
 
 def one_of(name, value, choices):
     """Return `value` if it is among `choices`."""
-    comparable = isinstance(value, str | Real)
+    comparable = isinstance(value, str | Real) and not isinstance(value, np.timedelta64)
     if not (comparable and any(value == choice for choice in choices)):
         raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
     return value

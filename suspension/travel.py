@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from suspension import _checks
 from suspension.contact import critical_speeds, exact_loss, margin, minima
 from suspension.critical import zeros
 from suspension.exact import over_bump
@@ -25,6 +26,9 @@ __all__ = [
     "overtravel",
     "travel",
 ]
+
+
+MAX_SAMPLES = 10**6
 
 
 class Travel(NamedTuple):
@@ -52,6 +56,9 @@ def travel(robot, bump, v, samples=2001):
     Travel
         The compression is ``h_i - Y_i``, counted from the unstretched spring.
     """
+    samples = _checks.whole("samples", samples, 2)
+    if samples > MAX_SAMPLES:
+        raise ValueError(f"samples must be at most {MAX_SAMPLES}, got {samples}")
     loss = exact_loss(robot, bump, v)
     t = np.linspace(0, loss.t if loss else COURSE / v, samples)
     W = over_bump(robot, bump, v, t)

@@ -77,6 +77,7 @@ def test_a_run_shows_the_eigenvalue_of_its_own_powers(lam):
         assert np.abs(np.diff(seen.imag)).max() < 1 + abs(lam) / 10  # no leap to another branch
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["RK45", "DOP853", "Radau", "LSODA"])
 def test_tighter_tolerances_cost_more_and_err_less(method):
     costs, worst = accuracy.solve_ivp_errors(
@@ -135,6 +136,7 @@ def test_without_a_switch_both_are_the_same():
     assert blind == pytest.approx(located, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bump", [BUMP, GaussianBump(height=0.02)], ids=["high", "low"])
 def test_speeds_beside_the_last_critical_one_lose_contact_and_lie_within_5_percent(bump):
     critical = critical_speeds(ROBOT, bump, 0.1, 30)

@@ -49,6 +49,7 @@ def test_textbook_loops_and_simulate_agree_stable_or_not(scheme, dt, robot, w0, 
     assert (np.abs(run.W - W).max(axis=0) <= 1e-12 * size).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", [CRANK_NICOLSON, RK4], ids=lambda scheme: scheme.name)
 def test_the_slowest_runs_of_questions_6_and_10_agree(scheme):
     robot = course.the_robot()

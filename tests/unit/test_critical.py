@@ -70,6 +70,7 @@ def test_far_from_zero_no_sample_is_added():
 # --- critical speeds --------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
 def test_critical_speeds_are_complete(robot):
     """Against a dense scan, for the bump as it is and for heights at which a wheel just lifts.
@@ -96,6 +97,7 @@ def test_critical_speeds_are_complete(robot):
     assert checked >= 3
 
 
+@pytest.mark.slow
 def test_the_verdicts_of_the_problem_follow_from_its_critical_speeds():
     v = critical_speeds(ROBOT, BUMP, 0.05, 100)
     assert len(v) == 3  # slow is safe, the middle lifts, fast skims over, faster still lifts
@@ -108,6 +110,7 @@ def test_a_critical_speed_is_a_critical_stiffness_too():
         assert abs(critical_stiffness(ROBOT, BUMP, v, 700, 900) / 800 - 1).min() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("v", "flip"), [(1.2, 275), (5, 573), (10, 945)])
 def test_stiffness_at_which_the_verdict_flips(v, flip):
     (k,) = critical_stiffness(ROBOT, BUMP, v, 200, 2000)
@@ -125,6 +128,7 @@ def test_both_springs_keep_their_ratio():
 # --- sensitivity ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", [("k1", "k2"), ("c1",), ("m",), ("L1", "L2"), ("g",)])
 def test_critical_speeds_move_as_the_sensitivities_say(names):
     def changed(factor):

@@ -84,6 +84,7 @@ def quadrature(robot, bump, v, tfinal, w0=None):
 # --- flat ground ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("c", [0.0, 1.5, PITCH, HEAVE, HEAVE * (1 + 1e-9), HEAVE * 0.9999, 100.0])
 @pytest.mark.parametrize("Izz", [0.012, M * L**2, 0.3])
 def test_flat_ground_is_the_matrix_exponential(c, Izz):
@@ -109,6 +110,7 @@ def test_flat_ground_refuses_an_unsymmetric_robot(change):
 # --- the bump ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("v", [0.1, 0.25, 0.6, 1.2, 2.5, 5, 10, 30, 100])
 def test_every_robot_at_every_speed_agrees_with_dop853(v):
     start, t = None if v < 1 else W0, np.array([0, 0.15, 0.2, 0.3, 0.45, 0.7]) / v
@@ -118,6 +120,7 @@ def test_every_robot_at_every_speed_agrees_with_dop853(v):
         assert error < 1e-11, f"{name}: {error:.1e}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("v", [0.01, -0.01, 1e-6])
 def test_a_crawl_that_starts_on_the_bump_agrees_with_dop853(v):
     bump, t = replace(BUMP, centre=0.12 if v > 0 else -0.12), np.array([0.0, 0.5, 3.0])
@@ -305,6 +308,7 @@ def test_heights_and_starts_superpose(robot, bump, v, w0, a):
     np.testing.assert_allclose(whole - rest[:, None], a * part, rtol=0, atol=1e-12 * scale)
 
 
+@pytest.mark.slow
 @settings(quick, max_examples=40)
 @given(robot=robots, bump=bumps, v=near(3, 10), w0=states)
 def test_any_robot_agrees_with_quadrature(robot, bump, v, w0):

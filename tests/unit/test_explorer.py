@@ -344,6 +344,7 @@ def test_a_page_gets_the_view_and_a_still_picture_with_a_text(explorers):
     assert len(gzip.compress(source.encode())) < 45_000
 
 
+@pytest.mark.slow
 def test_the_still_picture_cuts_the_digits_of_its_lines_only():
     picture = unquote(explore(ROBOT, BUMP)._repr_mimebundle_()["text/html"])
     assert "scale(0.015625" in picture  # of its text

@@ -95,6 +95,7 @@ def brute_force_relaxes(robot, road, v, tfinal, dt):
     return np.array([Y, V, theta, omega]), forces
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "robot, v, tfinal", [(ROBOT, 1.2, 0.68), (ROBOT, 5, 0.4), (LOPSIDED, 1.2, 0.6)]
 )
@@ -131,6 +132,7 @@ def test_the_two_wheel_models_differ_by_more_than_brute_force_errs():
     assert max(np.abs(np.subtract(*landings))) > 3e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wheel", MODELS)
 @pytest.mark.parametrize("v", [0.25, 10])
 def test_a_run_that_keeps_contact_is_simulate(wheel, v):
@@ -193,6 +195,7 @@ def test_landing_force_is_what_the_damper_makes_of_the_closing_speed(wheel):
         assert event.force > 0
 
 
+@pytest.mark.slow
 def test_follows_is_the_footnote_at_every_sample():
     """No switch missed, none invented: the forces are a function of the state alone."""
     for road, v in [(BUMP, 1.2), (BUMP, 5), (washboard, 2)]:
@@ -219,6 +222,7 @@ def test_relaxing_wheels_obey_their_own_equation_at_every_sample():
         np.testing.assert_allclose(c * np.diff(x[i]), dt * (mean_N - k * mean_x), atol=1e-7 * c)
 
 
+@pytest.mark.slow
 def test_a_dip_below_zero_that_hardly_lasts_is_found():
     """Between keeping and losing contact lies one speed, whatever the length of the steps."""
     low, high = 0.4, 0.45
@@ -232,6 +236,7 @@ def test_a_dip_below_zero_that_hardly_lasts_is_found():
         assert np.sign(N.min()) == sign and abs(N.min()) < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wheel", MODELS)
 @pytest.mark.parametrize("robot", [ROBOT, LOPSIDED], ids=["symmetric", "lopsided"])
 def test_energy_never_grows_on_flat_ground(robot, wheel):
@@ -318,6 +323,7 @@ def test_two_wheels_that_land_one_after_the_other_land_at_their_own_times():
     np.testing.assert_allclose([e.t for e in landings], np.sqrt(2 * heights / ROBOT.g), atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("centre", [0.3, 0.305, 0.31, 0.315])
 def test_a_narrow_bump_is_not_stepped_over(centre):
     bump = GaussianBump(height=1e-4, sigma=0.001, centre=centre)
@@ -328,6 +334,7 @@ def test_a_narrow_bump_is_not_stepped_over(centre):
         np.testing.assert_allclose(flight.W[:, -1], truth, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_no_switch_is_made_of_roundoff():
     """Without weight a wheel far from the bump feels a force of 1e-200 N, and then nothing."""
     flight = fly(Robot(800, 800, g=0), GaussianBump(centre=0.9), v=1.2, tfinal=1.3)
@@ -360,6 +367,7 @@ def test_settled():
     assert np.isnan(run(ROBOT, 1.2, 0.68, "follows").settled(ROBOT))
 
 
+@pytest.mark.slow
 def test_rk4_has_its_order_from_switch_to_switch_and_not_across():
     v, tfinal = 5, 0.4
     flight = run(ROBOT, v, tfinal, "follows")
@@ -393,6 +401,7 @@ def test_gfunc_gives_the_forces_it_uses():
     np.testing.assert_allclose(linear(w, 0.06, 1.2)[0], ROBOT.A @ w + ROBOT.B @ u + ROBOT.e)
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None, derandomize=True)
 @given(
     k=st.tuples(*[st.floats(100, 3000)] * 2),
@@ -427,6 +436,7 @@ def test_any_robot_on_any_road(k, c, L, m, radius, v, waves, wheel):
     assert change == pytest.approx(gained - robot.g * 0.4, abs=1e-3 * (gained + robot.g * 0.4))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ripple", [1e3, 3e3, 1e5])
 def test_a_robot_that_chatters_is_told_when(ripple):
     def road(x):
@@ -440,6 +450,7 @@ def test_a_robot_that_chatters_is_told_when(ripple):
     assert 0 < time < 0.1
 
 
+@pytest.mark.slow
 def test_a_road_of_noise_is_told_where():
     def road(x):
         return 1e-3 * np.sin(1e9 * np.sin(1e7 * x)), np.sin(1e9 * x)

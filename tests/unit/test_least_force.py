@@ -72,6 +72,7 @@ def minima_by_dop853(robots, bump, speeds):
     return np.minimum(at - (after - before) ** 2 / (8 * (before - 2 * at + after)), N.min(axis=0))
 
 
+@pytest.mark.slow
 def test_no_wrong_verdict_in_600():
     fleet, speeds = [Robot(k, k) for k in (500, 800, 1000)], np.geomspace(0.1, 30, 200)
     expected = minima_by_dop853(fleet, BUMP, speeds)

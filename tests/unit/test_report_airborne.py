@@ -32,6 +32,7 @@ def flights(name, wheel="follows"):
     return {v: fly(ROBOTS[name], BUMP, v=v, tfinal=1, wheel=wheel) for v in SPEEDS}
 
 
+@pytest.mark.slow
 @each_robot
 def test_sentences_about_flights_are_sound(name):
     robot, runs = ROBOTS[name], flights(name)
@@ -77,6 +78,7 @@ def test_the_caption_says_which_of_the_shown_fly():
     assert "leaves the ground" not in plain(part.flight_caption([runs[1.2]]).text)
 
 
+@pytest.mark.slow
 def test_where_the_damper_lets_go_the_force_returns_without_a_jump_and_the_models_part():
     robot = ROBOTS["k = 793"]
 
@@ -95,6 +97,7 @@ def test_where_the_damper_lets_go_the_force_returns_without_a_jump_and_the_model
     assert "none of these speeds" in plain(part.first_flights([pair(0.25)]))
 
 
+@pytest.mark.slow
 def test_the_models_agree_or_not_as_the_numbers_say():
     close = part.models(flights("k = 793"), flights("k = 793", "relaxes"), ROBOTS["k = 793"])
     assert "by more than" in plain(close)

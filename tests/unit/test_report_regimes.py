@@ -37,6 +37,7 @@ def regimes(name):
     return edges, lost, overtravel(robot, BUMP, DELTA_MAX, LOW, HIGH)
 
 
+@pytest.mark.slow
 @each_robot
 def test_the_verdict_tells_every_range(name):
     edges, lost, beyond = regimes(name)

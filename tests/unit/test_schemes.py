@@ -156,6 +156,7 @@ def test_limits_known_by_hand(scheme, eigenvalue, limit):
     assert type(dt) is float and dt == pytest.approx(limit, rel=1e-14)
 
 
+@pytest.mark.slow
 @named(SMALL)
 @quick
 @given(eigenvalues=EIGENVALUES)

@@ -59,6 +59,7 @@ def test_the_samples_are_dense_enough(samples):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", [ROBOT, LOPSIDED], ids=["symmetric", "lopsided"])
 @pytest.mark.parametrize("limit", [0.012, 0.0165, 0.02])
 def test_overtravel_splits_the_speeds_where_the_limit_is_passed(robot, limit):

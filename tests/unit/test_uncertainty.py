@@ -53,6 +53,7 @@ def fitted(k, beta0=0.0, beta2=0.0, sigma=0.05, n=21):
 SLOW, FAST = (0.38, 0.5), (4.0, 30.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k, half, vmin, vmax", [
     (1000, 300, *SLOW),
     (986.7, 37, *SLOW),
@@ -101,6 +102,7 @@ def test_a_pair_vanishes_where_the_search_at_one_stiffness_finds_it_no_more():
     assert third.speed == pytest.approx(0.44594, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_pair_that_is_not_there_at_the_estimate_is_reported():
     found = intervals(1000, 300, *SLOW)
     assert [c.speed is None for c in found] == [False, True, True]
@@ -138,12 +140,14 @@ def test_a_stiffness_known_exactly_has_critical_speeds_known_exactly():
     assert all(c.everywhere for c in found)
 
 
+@pytest.mark.slow
 def test_a_stiffness_that_is_hardly_known_is_followed_no_further_than_a_factor_of_twenty():
     found = intervals(800, 810, 20, 21)
     assert found and all(20 <= c.low * (1 + 1e-14) for c in found)
     assert all(c.high <= 21 * (1 + 1e-14) for c in found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fit, vmin, vmax", [
     (fitted(800), 7.5, 8.5),
     (fitted(500, 0.5, 2.5), 3.9, 7.0),
@@ -160,6 +164,7 @@ def test_each_stiffness_of_a_spring_has_its_critical_speeds(fit, vmin, vmax):
             assert together.everywhere and apart.everywhere
 
 
+@pytest.mark.slow
 def test_a_fit_stands_for_its_slope_at_zero():
     fit = fitted(800)
     assert critical_speed_intervals(fit, ROBOT, BUMP, 7, 9) == critical_speed_intervals(
@@ -183,6 +188,7 @@ def test_a_bare_number_is_no_stiffness(function):
 # --- probabilities ----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("v", [0.4455, 7.9, 20.4])
 def test_the_probability_of_a_loss_is_the_share_of_stiffnesses_that_lose(v):
     stiffness = known_to(30, 985) if v < 1 else known_to(40, 800)
