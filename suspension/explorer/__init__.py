@@ -179,6 +179,8 @@ def explore(
     _checks.instance("robot", robot, Robot)
     robots, own = vary_stiffness(robot)
     k = robot.k1 if k is None else _checks.positive("k", k)
+    if time is not None:
+        time = _checks.number("time", time, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
     names = [known.name for known in SCHEMES]
     explorer = Explorer(
         robots,
@@ -194,6 +196,5 @@ def explore(
         run = explorer.trajectory()
         t = run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
         time = min(t * v / distance, 1)
-    time = _checks.number("time", time, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
     explorer.time = round(MOMENTS * time)
     return ExplorerBox(explorer, controls(explorer, own))

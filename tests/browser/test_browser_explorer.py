@@ -25,7 +25,7 @@ BOX = ".suspension-explorer-box"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Moment"]
 STATE = "application/vnd.jupyter.widget-state+json"
 PLAIN = {0x2212: "-", 0xD7: "x", 0xA0: " "}  # the page's minus, times and fixed space
-MARK = "suspension.explorer.Explorer"
+MARK = 'type="application/vnd.jupyter.widget-view+json"'  # stands in every page with an explorer
 BUMPS = """
 def two_bumps(x):
     (H1, d1), (H2, d2) = GaussianBump()(x), GaussianBump(0.018, 0.02, 0.85)(x)

@@ -37,6 +37,7 @@ def textbook(scheme, robot, road, v, dt, tfinal, w0):
     return course.crank_nicolson(robot.A, F, w0, dt, tfinal)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", [CRANK_NICOLSON, RK4], ids=lambda scheme: scheme.name)
 @pytest.mark.parametrize("dt", [1e-3, 0.01, 0.1, 0.2], ids="dt={}".format)
 @quick
@@ -58,6 +59,7 @@ def test_the_slowest_runs_of_questions_6_and_10_agree(scheme):
     assert np.abs(run.W - W).max() <= 1e-12 * np.abs(W).max()
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:overflow|invalid:RuntimeWarning")
 def test_an_overflowing_run_is_finite_for_as_long_as_the_textbook_loop():
     robot, dt, J = Robot(800, 800), 0.5, 5000

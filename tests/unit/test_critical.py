@@ -26,6 +26,7 @@ quick = settings(derandomize=True, deadline=None, max_examples=200)
 # --- finding every zero -----------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @quick
 @given(
     roots=st.lists(st.floats(0.001, 0.999), min_size=0, max_size=6, unique=True),
@@ -105,6 +106,7 @@ def test_the_verdicts_of_the_problem_follow_from_its_critical_speeds():
     np.testing.assert_allclose(critical_speeds(ROBOT, BUMP, 1, 10), v[1:2], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_critical_speed_is_a_critical_stiffness_too():
     for v in critical_speeds(ROBOT, BUMP, 0.3, 30):
         assert abs(critical_stiffness(ROBOT, BUMP, v, 700, 900) / 800 - 1).min() < 1e-10
@@ -119,6 +121,7 @@ def test_stiffness_at_which_the_verdict_flips(v, flip):
     assert margin(softer, BUMP, v) > 0 > margin(stiffer, BUMP, v)
 
 
+@pytest.mark.slow
 def test_both_springs_keep_their_ratio():
     robot = ROBOTS["unsymmetric"]
     for k in critical_stiffness(robot, BUMP, 5, 100, 3000):

@@ -329,6 +329,7 @@ def test_a_bad_road_is_refused(road):
         explore(ROBOT, road)
 
 
+@pytest.mark.slow
 def test_a_page_gets_the_view_and_a_still_picture_with_a_text(explorers):
     box = explore(ROBOT, BUMP, v=1.2)
     bundle = box._repr_mimebundle_()

@@ -273,6 +273,7 @@ def test_a_mirrored_robot_that_backs_over_a_mirrored_road_flies_alike(wheel):
     np.testing.assert_allclose(flight.W[:, -1:], sign * image.W[:, -1:], atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wheel", MODELS)
 def test_halving_every_step_moves_no_switch(wheel):
     coarse = run(ROBOT, 1.2, 0.68, wheel)

@@ -52,6 +52,7 @@ def test_sentences_about_flights_are_sound(name):
         assert not faults(text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "words"),
     [

@@ -48,6 +48,7 @@ def test_the_verdict_tells_every_range(name):
     assert ("if the spring stays linear" in plain(text)) == bool(len(beyond))
 
 
+@pytest.mark.slow
 @each_robot
 def test_captions_tables_and_doubts_are_sound(name):
     robot = ROBOTS[name]

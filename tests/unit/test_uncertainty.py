@@ -89,6 +89,7 @@ def test_branches_are_the_critical_speeds_at_every_stiffness(k, half, vmin, vmax
                 assert np.isclose(end, np.clip(end, c.low, c.high), rtol=1e-9).any()
 
 
+@pytest.mark.slow
 def test_a_pair_vanishes_where_the_search_at_one_stiffness_finds_it_no_more():
     found = intervals(986.7, 37, *SLOW)
     first, second, third = found
@@ -110,6 +111,7 @@ def test_a_pair_that_is_not_there_at_the_estimate_is_reported():
     assert found[1].exists_from is not None and found[2].exists_from is None
 
 
+@pytest.mark.slow
 def test_a_pair_is_born():
     found = intervals(1000, 300, *SLOW)
     born = [c for c in found if c.born is not None]
