@@ -21,7 +21,7 @@ from lab import run_all, serve  # noqa: E402
 
 MOVES = 120
 OPENINGS = 7
-MARK = "suspension.explorer.Explorer"  # stands in the state of every page with an explorer
+MARK = 'type="application/vnd.jupyter.widget-view+json"'  # stands in every page with an explorer
 
 # The first "painted" event is the moment the page can be used; it comes with the drawn frame.
 WATCH = """
