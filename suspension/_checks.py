@@ -7,6 +7,7 @@ import numpy as np
 
 __all__ = [
     "array",
+    "ends",
     "function",
     "instance",
     "interval",
@@ -44,6 +45,12 @@ def nonnegative(name, value):
 def interval(name, value, low, high):
     """Return `value` as a float with low < value < high."""
     return number(name, value, f"a number between {low} and {high}", lambda x: low < x < high)
+
+
+def ends(low_name, low, high_name, high):
+    """Return both ends of a range as floats, 0 < low < high."""
+    low = positive(low_name, low)
+    return low, number(high_name, high, f"> {low_name} = {low:g}", lambda x: x > low)
 
 
 def whole(name, value, low):

@@ -66,7 +66,7 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
     return Errors(
         (np.abs(run.W - W) / scale).max(),
         np.abs(run.N - N).max(),
-        abs(_crossing(run.T, run.N) - loss.t) if loss else np.nan,
+        abs(_first_zero(run.T, run.N) - loss.t) if loss else np.nan,
     )
 
 
@@ -80,7 +80,7 @@ def _truth(robot, bump, v, T):
     return W, normal_forces(robot, bump, v, T, W)
 
 
-def _crossing(T, N):
+def _first_zero(T, N):
     if not (N <= 0).any():
         return np.nan
     roots = [CubicSpline(T, force).roots(extrapolate=False) for force in N]

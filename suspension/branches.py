@@ -45,14 +45,14 @@ class Branch:
         ``ln v + i ln k`` in order of the stiffness.
     first, last : End or None
         None where the branch goes on beyond the range of stiffnesses.
-    level : callable
+    margin_at : callable
         The margin in N at a point of the plane.
     """
 
     points: np.ndarray
     first: End | None
     last: End | None
-    level: object
+    margin_at: object
 
     def speed(self, k):
         """The critical speed in m/s at a stiffness in N/m, None where the branch is not."""
@@ -65,8 +65,8 @@ class Branch:
         for part in (0, 1e-6, 1e-4, 1e-2, 0.1, 1):  # between the two points, or nearly so
             wider = part * abs(above - below)
             ends = low - wider, high + wider
-            if self.level(ends[0] + 1j * y) * self.level(ends[1] + 1j * y) <= 0:
-                x = brentq(lambda x: self.level(x + 1j * y), *ends, xtol=1e-14)
+            if self.margin_at(ends[0] + 1j * y) * self.margin_at(ends[1] + 1j * y) <= 0:
+                x = brentq(lambda x: self.margin_at(x + 1j * y), *ends, xtol=1e-14)
                 return float(np.exp(x))
         # So near to the end of a pair that the two cannot be told apart.
         return float(np.exp(np.interp(y, place, self.points.real)))
@@ -111,7 +111,7 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
     def with_stiffness(k):
         return replace(robot, k1=k, k2=k)
 
-    def level(point):
+    def margin_at(point):
         return margin(with_stiffness(np.exp(point.imag)), bump, np.exp(point.real))
 
     corners = np.log(vmin) + 1j * np.log(kmin), np.log(vmax) + 1j * np.log(kmax)
@@ -130,60 +130,62 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
         if i in used:
             continue
         used.add(i)
-        curve, j = _follow(level, start, heading, corners, step, exits)
+        curve, j = _follow(margin_at, start, heading, corners, step, exits)
         if j in used:
             continue  # already walked from the other side
         used.add(i if j is None else j)
-        found += _cut(level, curve, corners)
+        found += _cut(margin_at, curve, corners)
     if check is not None:
         for v in critical_speeds(with_stiffness(check), bump, vmin, vmax):
             near = [speed for b in found if (speed := b.speed(check)) is not None]
             if not any(abs(speed / v - 1) < 1e-7 for speed in near):
                 start = complex(np.log(v), np.log(check))
-                curve, _ = _follow(level, start, UP, corners, step, exits)
+                curve, _ = _follow(margin_at, start, UP, corners, step, exits)
                 if curve[-1] != start:
-                    back, _ = _follow(level, start, -UP, corners, step, exits)
+                    back, _ = _follow(margin_at, start, -UP, corners, step, exits)
                     curve = back[::-1] + curve[1:]
-                found += _cut(level, curve, corners)
+                found += _cut(margin_at, curve, corners)
     return found
 
 
-def _follow(level, start, heading, corners, step, exits):
+def _follow(margin_at, start, heading, corners, step, exits):
     """Points along a curve from `start` to an edge, or round to the start again.
 
     `exits` are all points at which a curve crosses an edge. Also returned is which of them it is,
     None if none.
     """
     points, radius = [start], step
-    heading = _along(level, start, heading)
+    heading = _along(margin_at, start, heading)
     while True:
         last = points[-1]
-        point, radius = _next(level, last, heading, min(step, 2 * radius))
-        way_out = _crossing(last, point, corners)
+        point, radius = _next(margin_at, last, heading, min(step, 2 * radius))
+        way_out = _way_out(last, point, corners)
         while way_out is not None:
             away = np.abs(exits - way_out) if len(exits) else np.array([np.inf])
             if away.min() < radius / 10:
                 return [*points, exits[away.argmin()]], int(away.argmin())
             if radius < FINEST:
                 return [*points, way_out], None
-            point, radius = _next(level, last, heading, radius / 2)
-            way_out = _crossing(last, point, corners)
+            point, radius = _next(margin_at, last, heading, radius / 2)
+            way_out = _way_out(last, point, corners)
         points.append(point)
         heading = (point - last) / abs(point - last)
         if len(points) > 4 and abs(point - start) < radius:
             return [*points[:-1], start], None
 
 
-def _along(level, point, heading):
+def _along(margin_at, point, heading):
     """The direction of the curve through a zero, the one of the two that is nearer to `heading`."""
     small = 1e-6
-    slopes = [level(point + small * way) - level(point - small * way) for way in (RIGHT, UP)]
+    slopes = [
+        margin_at(point + small * way) - margin_at(point - small * way) for way in (RIGHT, UP)
+    ]
     tangent = 1j * complex(*slopes)
     tangent /= abs(tangent)
     return tangent if (tangent * np.conj(heading)).real > 0 else -tangent
 
 
-def _next(level, point, heading, radius):
+def _next(margin_at, point, heading, radius):
     """The next zero, on a circle around `point`, and the circle's radius.
 
     The margin has opposite signs on the two sides of a curve. If it has not, or the zero is not
@@ -192,21 +194,21 @@ def _next(level, point, heading, radius):
     """
 
     def around(angle):
-        return level(point + radius * heading * np.exp(1j * angle))
+        return margin_at(point + radius * heading * np.exp(1j * angle))
 
     while around(-AHEAD) * around(AHEAD) >= 0:
         if radius < FINEST:
-            return _around_a_tip(level, point, heading, radius), radius
+            return _around_a_tip(margin_at, point, heading, radius), radius
         radius /= 2
     angle = brentq(around, -AHEAD, AHEAD, xtol=1e-9)
     return point + radius * heading * np.exp(1j * angle), radius
 
 
-def _around_a_tip(level, point, heading, radius):
+def _around_a_tip(margin_at, point, heading, radius):
     """The zero nearest to straight ahead on nearly the whole circle."""
 
     def around(angle):
-        return level(point + radius * heading * np.exp(1j * angle))
+        return margin_at(point + radius * heading * np.exp(1j * angle))
 
     angles = 0.97 * np.pi * np.linspace(-1, 1, 48)
     signs = np.sign([around(angle) for angle in angles])
@@ -218,19 +220,19 @@ def _around_a_tip(level, point, heading, radius):
     return point + radius * heading * np.exp(1j * angle)
 
 
-def _crossing(inside, point, corners):
+def _way_out(inside, point, corners):
     """Where the line from a point in the rectangle to another leaves it, None if it does not."""
     low, high = corners
     way, parts = point - inside, []
-    for at, change, least, most in (
-        (inside.real, way.real, low.real, high.real),
-        (inside.imag, way.imag, low.imag, high.imag),
+    for in_speed, at, change, least, most in (
+        (True, inside.real, way.real, low.real, high.real),
+        (False, inside.imag, way.imag, low.imag, high.imag),
     ):
         for edge in (least, most):
             outward = change if edge == most else -change
             beyond = (at + change - edge) * (1 if edge == most else -1)
             if outward > 0 and beyond > 0:
-                parts.append(((edge - at) / change, edge, change == way.real))
+                parts.append(((edge - at) / change, edge, in_speed))
     if not parts:
         return None
     part, edge, in_speed = min(parts)
@@ -241,33 +243,33 @@ def _crossing(inside, point, corners):
 # --- from curves to branches ------------------------------------------------------------------
 
 
-def _cut(level, curve, corners):
+def _cut(margin_at, curve, corners):
     """The branches of a curve: the pieces on which the stiffness only grows or only falls."""
     points = np.array(curve)
     if len(points) > 2 and points[0] == points[-1]:  # a closed curve starts at its softest point
         points = np.roll(points[:-1], -points[:-1].imag.argmin())
-        softest = _turn(level, points[-1], points[0], points[1])
+        softest = _turn(margin_at, points[-1], points[0], points[1])
         points = np.array([softest, *points[1:], softest])
     pieces, begin = [], points[:1]
     turns = _turning(points.imag)
     for start, i in zip([0, *turns], turns):
-        turn = _turn(level, *points[i - 1 : i + 2])
+        turn = _turn(margin_at, *points[i - 1 : i + 2])
         pieces.append(np.array([*begin, *points[start + 1 : i], turn]))
         begin = np.array([turn])
     last = turns[-1] if turns else 0
     pieces.append(np.array([*begin, *points[last + 1 :]]))
-    return [_branch(level, piece, corners) for piece in pieces]
+    return [_branch(margin_at, piece, corners) for piece in pieces]
 
 
-def _branch(level, points, corners):
+def _branch(margin_at, points, corners):
     if points[0].imag > points[-1].imag:
         points = points[::-1]
     points = points.copy()
     for i in _turning(points.real):  # the largest and the least speed on the way
-        turned = _turn(lambda p: level(_swap(p)), *_swap(points[i - 1 : i + 2]))
+        turned = _turn(lambda p: margin_at(_swap(p)), *_swap(points[i - 1 : i + 2]))
         points[i] = _swap(turned)
     order = np.argsort(points.imag, kind="stable")
-    return Branch(points[order], *(_end(point, corners) for point in points[[0, -1]]), level)
+    return Branch(points[order], *(_end(point, corners) for point in points[[0, -1]]), margin_at)
 
 
 def _turning(coordinate):
@@ -276,7 +278,7 @@ def _turning(coordinate):
     return [i for i in range(1, len(steps)) if steps[i - 1] * steps[i] < 0]
 
 
-def _turn(level, before, point, after):
+def _turn(margin_at, before, point, after):
     """Where between two neighbours of `point` the curve goes furthest in its imaginary part."""
     chord = after - before
     if abs(chord) < 10 * FINEST:
@@ -289,7 +291,7 @@ def _turn(level, before, point, after):
 
     def on_curve(part):
         foot = before + part * chord
-        return foot + across * brentq(lambda s: level(foot + s * across), 0, reach, xtol=1e-12)
+        return foot + across * brentq(lambda s: margin_at(foot + s * across), 0, reach, xtol=1e-12)
 
     try:
         part = minimize_scalar(

@@ -47,7 +47,7 @@ def critical_speeds(robot, bump, vmin, vmax):
     """
     _checks.instance("robot", robot, Robot)
     _checks.instance("bump", bump, GaussianBump)
-    vmin, vmax = _range("vmin", vmin, "vmax", vmax)
+    vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     cost = np.mean([sample_count(robot, v) for v in np.geomspace(vmin, vmax)])
     x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost)
     return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x)), x))
@@ -85,7 +85,7 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
     _checks.instance("robot", robot, Robot)
     _checks.instance("bump", bump, GaussianBump)
     v = _checks.positive("v", v)
-    kmin, kmax = _range("kmin", kmin, "kmax", kmax)
+    kmin, kmax = _checks.ends("kmin", kmin, "kmax", kmax)
 
     def with_stiffness(k1):
         return replace(robot, k1=k1, k2=k1 * (robot.k2 / robot.k1))
@@ -115,6 +115,9 @@ def sensitivity(robot, bump, v, *names):
         In N: a hundredth of it is the change that one percent makes.
     """
     _checks.instance("robot", robot, Robot)
+    v = _checks.positive("v", v)
+    if not names:
+        raise ValueError("names must hold at least one parameter, got none")
     allowed = ["v", *(field.name for field in fields(robot) if field.init)]
     for name in names:
         _checks.one_of("names", name, allowed)
@@ -187,8 +190,3 @@ def _logarithmic(robot, bump, names, low, high, cost):
             f"got {low:g} and {high:g} with sigma={bump.sigma:g}: {needed:.2g}"
         )
     return np.linspace(np.log(low), np.log(high), 2 + int(count))
-
-
-def _range(low_name, low, high_name, high):
-    low = _checks.positive(low_name, low)
-    return low, _checks.number(high_name, high, f"> {low_name} = {low:g}", lambda x: x > low)

@@ -2,7 +2,7 @@
 
 A mode of the robot answers a Gaussian bump with an error function of complex argument. With
 ``xi`` the distance of a wheel from the top of the bump in units of ``sqrt(2) sigma``, the bump is
-``exp(-xi^2)`` and a mode goes like ``exp(kappa xi)``, where ``kappa = sqrt(2) sigma lam / v``.
+``exp(-xi^2)`` and a mode goes like ``exp(kappa xi)``, where ``kappa = sqrt(2) sigma lam / |v|``.
 """
 
 from functools import lru_cache
@@ -124,7 +124,7 @@ class Crossing:
     What the dampers pass on at once is split off: ``y = w - w_eq - sum_i c_i P_i h_i`` obeys
     ``y' = A y + sum_i b_i h_i`` with ``b_i = k_i P_i + c_i A P_i``. There a mode with eigenvalue
     lam, driven by ``gain h``, is ``q(t) = exp(lam t) (q(0) - gain memory(0)) + gain memory(t)``,
-    where ``memory = height sqrt(pi) sigma / (sqrt(2) v) bump_memory(xi)`` is what the mode
+    where ``memory = height sqrt(pi) sigma / (sqrt(2) |v|) bump_memory(xi)`` is what the mode
     remembers of the bump, from infinitely far.
 
     Parameters are those of `over_bump`.
@@ -138,7 +138,7 @@ class Crossing:
     lam : ndarray of complex, shape (modes,)
         Eigenvalues, 1/s, one of each conjugate pair (or those on the circle of `_modes`).
     start : ndarray, shape (2,)
-        ``xi`` at t = 0, rear and front wheel.
+        ``xi`` at t = 0, rear and front wheel, counted along the way of travel.
     rate : float
         ``dxi/dt = |v| / (sqrt(2) sigma)``, 1/s.
     """

@@ -109,7 +109,8 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
       lift-off with the time constant c / k. The landing force is c times the speed at which
       wheel and ground meet. With ``c = 0`` both models are the same.
 
-    At t = 0 a wheel presses if ``p >= 0`` and ``f > 0``; else it hangs, with ``x = max(0, p)``.
+    At t = 0 a wheel presses if ``p >= 0`` and ``f > 0``; else it is free, with ``x = 0``, or
+    ``max(0, p)`` if it relaxes.
 
     Parameters
     ----------
@@ -164,14 +165,13 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
     noise = TOLERANCES["atol"] * np.abs(robot.C).max(axis=1)  # forces the integrator cannot tell
     p, f = springs(w, 0.0, v)
     pressing = (p >= 0) & (f > 0)
-    lifted = np.zeros(
-        2
-    )  # when a free wheel last left the ground, and its spring's compression then
-    extension = np.where(relaxes & (p > 0), p, 0.0)
+    # Of a free wheel: when it left the ground, and its spring's compression then.
+    lifted = np.zeros(2)
+    compression = np.where(relaxes & (p > 0), p, 0.0)
 
     def gaps_and_forces(motion, t):
         p, f = springs(motion(t), t, v)
-        free = extension * np.exp(-rate * np.subtract.outer(t, lifted))
+        free = compression * np.exp(-rate * np.subtract.outer(t, lifted))
         return free.T - p, f
 
     history, legs, events = [], [], []
@@ -193,7 +193,7 @@ def fly(robot, road, *, v, tfinal, w0=None, wheel="follows", resolution=None, sa
         p, f = springs(w, t, v)
         pressing = pressing ^ switched
         lifted = np.where(switched, t, lifted)
-        extension = np.where(switched, p * relaxes, extension)
+        compression = np.where(switched, p * relaxes, compression)
         for i in np.flatnonzero(switched):
             kind, force = ("landing", float(f[i])) if pressing[i] else ("lift-off", 0.0)
             events.append(Event(int(i) + 1, kind, t, v * t, force))
@@ -232,6 +232,8 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0):
     The forces are those of "follows", told from the state alone, for a method that looks for no
     switch. With `pressing` they are those of one leg of a `Flight`, and t counts from its `start`.
     """
+    _checks.instance("robot", robot, Robot)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
     springs = _spring_forces(robot, road)
 
     def gfunc(w, t, v):

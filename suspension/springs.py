@@ -138,7 +138,7 @@ class Linearity(NamedTuple):
 
     Attributes
     ----------
-    statistic, p : float
+    statistic, pvalue : float
         F and its p-value.
     joint : bool
         Whether zero lies in both joint intervals (p = 3).
@@ -147,7 +147,7 @@ class Linearity(NamedTuple):
     """
 
     statistic: float
-    p: float
+    pvalue: float
     joint: bool
     linear: bool
 
@@ -274,11 +274,9 @@ class SpringFit:
         size = np.abs(self._force).max()
         if np.abs(self.results.resid).max() <= EXACT * size:
             straight = bool((np.abs(self.beta[[0, 2]]) <= 1e3 * EXACT * size).all())
-            return (
-                Linearity(0.0, 1.0, True, True)
-                if straight
-                else Linearity(np.inf, 0.0, *[False] * 2)
-            )
+            if straight:
+                return Linearity(0.0, 1.0, joint=True, linear=True)
+            return Linearity(np.inf, 0.0, joint=False, linear=False)
         test = self.results.f_test(np.eye(3)[[0, 2]])
         joint = bool((low <= 0).all() and (high >= 0).all())
         p = float(test.pvalue)

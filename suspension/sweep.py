@@ -13,8 +13,8 @@ from suspension.schemes import RK4, Scheme
 __all__ = ["sweep"]
 
 BATCH = 1024  # cases worked on at a time, whose matrices stay in the processor's cache
-MAX_STEPS = 10**5  # of a run, and of all runs together: some ten seconds each
-MAX_WORK = 10**8
+MAX_STEPS = 10**5  # of one run: some ten seconds
+MAX_WORK = 10**8  # steps of all runs together: as long
 
 
 def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
@@ -52,9 +52,9 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
 
     Notes
     -----
-    With the place ``X = v t`` for time, ``dw/dX = (A w + P f + e) / v``, every case takes the same
-    steps and sees the same road, which is evaluated once per distinct (L1, L2). The memory in use
-    does not grow with the number of cases.
+    With the place ``X = v t`` for time, ``dw/dX = (A w + B u + e) / v``, every case takes the same
+    steps and sees the same road, which is evaluated once per distinct (L1, L2). Beyond
+    the result, the memory in use grows with the steps and not with the cases.
 
     Examples
     --------

@@ -83,7 +83,7 @@ def overtravel(robot, bump, limit, vmin, vmax):
     robot : Robot
     bump : GaussianBump
     limit : float
-        Compression, m.
+        Compression, m, > 0.
     vmin, vmax : float
         Range of speeds, m/s, 0 < vmin < vmax.
 
@@ -102,6 +102,8 @@ def overtravel(robot, bump, limit, vmin, vmax):
            [ 0.41,  0.44],
            [ 0.73, 30.  ]])
     """
+    limit = _checks.positive("limit", limit)
+    vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
 
     def excess(x):
         return travel(robot, bump, np.exp(x), samples=1001).compression / limit - 1
@@ -179,32 +181,39 @@ def moments(flight, robot, bump):
     moments : dict of float to str
         Times, s, in order. With a lift-off: the front wheel at the foot of the bump, the first
         lift-off, the highest point of that flight, its landing, and the highest wheel of all.
-        Without: either wheel at the foot and on the top of the bump, and past it.
+        Without: the front wheel at the foot and on the top of the bump, the body over the top, the
+        rear wheel on it, and both past it.
     """
     v = flight.v
     foot = bump.centre - 2 * bump.sigma
     told = {(foot - robot.L2) / v: f"the {WHEEL[2]} wheel reaches the bump"}
-    if not flight.events:
+    lift_offs = [
+        event for event in flight.events if event.kind == "lift-off" and event.t <= COURSE / v
+    ]
+    if not lift_offs:
         told[(bump.centre - robot.L2) / v] = f"the {WHEEL[2]} wheel is on its top"
         told[bump.centre / v] = "the body is over it"
         told[(bump.centre + robot.L1) / v] = f"the {WHEEL[1]} wheel is on its top"
         told[(bump.centre + 2 * bump.sigma + robot.L1) / v] = "both have passed"
         return told
-    first = flight.events[0]
+    first = lift_offs[0]
     told[first.t] = f"the {WHEEL[first.wheel]} wheel lifts off"
     landings = [
         event.t
         for event in flight.events
-        if event.wheel == first.wheel and event.kind == "landing" and event.t <= COURSE / v
+        if event.wheel == first.wheel
+        and event.kind == "landing"
+        and first.t < event.t <= COURSE / v
     ]
     end = landings[0] if landings else COURSE / v
     gaps = np.where(flight.T <= COURSE / v, flight.gaps, -1)
     aloft = (flight.T > first.t) & (flight.T < end)
-    top = float(flight.T[np.where(aloft, gaps[first.wheel - 1], -1).argmax()])
-    told[top] = "it is at the top of this flight"
+    height = np.where(aloft, gaps[first.wheel - 1], 0)
+    if height.max() > 0:  # a very short flight has no sample, and a wheel need not rise in it
+        told[float(flight.T[height.argmax()])] = "it is at the top of this flight"
     if landings:
         told[end] = "it lands"
     i, j = np.unravel_index(gaps.argmax(), gaps.shape)
-    if float(flight.T[j]) not in told:
+    if gaps[i, j] > 0 and float(flight.T[j]) not in told:
         told[float(flight.T[j])] = f"the {WHEEL[i + 1]} wheel is at its highest"
     return dict(sorted(told.items()))

@@ -63,5 +63,5 @@ def _describe(robot, run):
     return (
         f"The robot on the road, both normal forces and the stability region of {run.scheme.name}: "
         f"at {run.v:g} metres per second {lifts}, the smallest force {force}, "
-        f"and a step of {1000 * run.dt:g} milliseconds is {stable}."
+        f"and a step of {1000 * run.dt:g} ms is {stable}."
     )

@@ -22,7 +22,7 @@ def plot_errors(x, errors, ax=None):
         at = x[name] if isinstance(x, dict) else x
         style = {"ls": LINES[i % len(LINES)], "marker": MARKERS[i % len(MARKERS)], "mfc": "none"}
         ax.loglog(at, error, **style, label=name)
-    ax.legend()
+    ax.legend(loc="upper left")
     return ax
 
 

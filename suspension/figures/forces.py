@@ -57,5 +57,6 @@ def plot_flight(flight, linear, axes):
         axes[1].plot(flight.T, 1000 * flight.gaps[i], **style)
     axes[0].set(ylabel="normal force (N)", title=f"$v$ = {flight.v:g} m/s")
     axes[1].set(ylabel="wheel above\nground (mm)", xlabel="time $t$ (s)")
+    axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.18 * np.ptp(axes[0].get_ylim()))
     axes[0].legend(loc="upper right", ncols=2)
     return axes

@@ -82,7 +82,7 @@ def plot_margin(v, N, critical, asked=(), beyond=(), ax=None):
     style = {"ha": "center", "va": "top", "weight": "bold", "bbox": box, "zorder": 5}
     _labels_apart(ax, critical, [f"{speed:.3g}" for speed in critical], **style)
     ax.set(ylabel="least normal force (N)")
-    ax.legend(loc="lower left", framealpha=0.85, frameon=True, edgecolor="none")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=5, columnspacing=1.2)
     return ax
 
 

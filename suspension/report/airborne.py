@@ -39,7 +39,12 @@ def flight_table(flights, robot):
     flights : sequence of Flight
     robot : Robot
     """
-    return table([_row(flight, robot) for flight in flights])
+    flights = list(flights)
+    note = (
+        f"Counted over {quantity(flights[0].T[-1], 's')}. A run has settled when both forces stay "
+        f"within 5{SPACE}% of those at rest."
+    )
+    return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 
 
 def _row(flight, robot):
@@ -234,12 +239,18 @@ def first_flights(pairs):
     words = [_smooth_words(smooth, len(pairs))]
     v = max(apart, key=lambda v: apart[v][1])
     later, force = apart[v]
+    latest = max(apart, key=lambda v: apart[v][0])
     if abs(later) > 1e-5:
         words.append(
-            f"The two models part most at {speed_list([v])}: the wheel that relaxes is back "
-            f"{number(1000 * later, 2)}{SPACE}ms later, with {number(force, 2)}{SPACE}N more at "
-            "once."
+            f"In force the two models part most at {speed_list([v])}: the wheel that relaxes comes "
+            f"back with {number(force, 2)}{SPACE}N more at once, "
+            f"{number(1000 * later, 2)}{SPACE}ms later."
         )
+        if latest != v:
+            words.append(
+                f"In time they part most at {speed_list([latest])}, by "
+                f"{number(1000 * apart[latest][0], 2)}{SPACE}ms."
+            )
     else:
         words.append("Between the two models there is hardly a difference at these speeds.")
     return "\n\n".join([table(rows), " ".join(words)])

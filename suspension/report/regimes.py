@@ -144,7 +144,8 @@ def margin_caption(edges, lost, beyond, asked=()):
         text += f" Circles: the {count(len(asked), 'speed')} of the problem set."
     if len(beyond):
         text += (
-            r" Hatched: a spring is compressed beyond $\delta_{\max}$, as far as it was measured."
+            r" Hatched: a spring is compressed beyond $\delta_{\max}$, the largest displacement at "
+            "which it was measured."
         )
     alt = (
         "Least normal force of the rear and the front wheel against speed on a logarithmic axis. "

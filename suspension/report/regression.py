@@ -129,7 +129,7 @@ def joint_intervals(fit):
 
 def ellipse_figure(fit):
     """Caption of the confidence ellipse."""
-    accepted = fit.linearity().p >= 0.05
+    accepted = fit.linearity().pvalue >= 0.05
     place = "inside" if accepted else "outside"
     caption = (
         rf"The 95{SPACE}% confidence ellipse for $(\beta_0, \beta_2)$ and the boxes that the four "
@@ -156,7 +156,7 @@ def linearity(fit):
         where = f"Zero does **not** lie in the joint interval of {away[0]}"
     tested = (
         rf"the F test of $\beta_0 = \beta_2 = 0$ gives F{SPACE}={SPACE}{_statistic(test)}, "
-        f"{pvalue(test.p)}"
+        f"{pvalue(test.pvalue)}"
     )
     if test.linear:
         return (

@@ -17,7 +17,7 @@ __all__ = [
     "verdict",
 ]
 
-FIGURES = set("0123456789-−+–<>")  # how a number begins; a dash stands for none
+NUMERIC_START = set("0123456789-−+–<>")  # how a number begins; a dash stands for none
 
 
 def table(rows):
@@ -30,7 +30,7 @@ def table(rows):
     """
     names = list(rows[0])
     cells = [[str(row[name]) for name in names] for row in rows]
-    numeric = [all(cell[:1] in FIGURES for cell in column) for column in zip(*cells)]
+    numeric = [all(cell[:1] in NUMERIC_START for cell in column) for column in zip(*cells)]
     rule = "|" + "|".join("--:" if right else ":--" for right in numeric) + "|"
     head, *body = ["| " + " | ".join(line) + " |" for line in [names, *cells]]
     return "\n".join([head, rule, *body])
@@ -93,14 +93,18 @@ def mode_name(robot, k):
 
 
 def mode_rows(robot):
-    """Eigenvalues with what they mean: heave or pitch, natural frequency, damping ratio."""
+    """Eigenvalues with what they mean: heave or pitch, natural frequency, damping ratio.
+
+    Frequency and damping ratio belong to a conjugate pair; a real eigenvalue, of an overdamped
+    mode, has neither by itself.
+    """
     return [
         {
             "$k$": k + 1,
             r"$\lambda_k$ (1/s)": _complex(z),
             "mode": mode_name(robot, k),
-            "natural frequency (Hz)": fixed(abs(z) / (2 * np.pi), 3),
-            "damping ratio": fixed(-z.real / abs(z), 4),
+            "natural frequency (Hz)": fixed(abs(z) / (2 * np.pi), 3) if z.imag else "–",
+            "damping ratio": fixed(-z.real / abs(z), 4) if z.imag else "–",
         }
         for k, z in enumerate(robot.eigenvalues)
     ]

@@ -297,7 +297,8 @@ def _winner(names, end, largest):
             rf"$t_\text{{final}}$ it happens to be the other way round: {last}."
         )
     return (
-        rf"{names[best]} is more accurate: at $t_\text{{final}}$ its error is {last}, smaller by a "
+        rf"{names[best]} is more accurate than {names[1 - best]}: at $t_\text{{final}}$ its error "
+        f"is {last}, smaller by a "
         f"factor of {number(end[1 - best] / end[best])}, and {overall}."
     )
 

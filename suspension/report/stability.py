@@ -39,8 +39,8 @@ def diagram_caption(question, scheme, region, eigenvalues, dts):
     text = (
         f"**Question {question}.** {scheme.name} is absolutely stable in the shaded {region}. Of "
         rf"the {n} points $\lambda_k\Delta t$ of each step, {places}. The inset enlarges the "
-        f"surroundings of $z = 0$, where the {n} points of {min(dts):g}{SPACE}s lie, more across "
-        "than up."
+        f"surroundings of $z = 0$, where the {n} points of {min(dts):g}{SPACE}s lie; it is "
+        "stretched horizontally."
     )
     alt = (
         f"Stability diagram of {scheme.name} with a shaded {region}. Of the {n} points lambda "

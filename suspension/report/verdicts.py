@@ -153,7 +153,7 @@ def later(runs, longer):
     margins = (
         f", though the least force becomes smaller at {speed_list(deeper)}"
         if deeper
-        else ", and no margin becomes smaller"
+        else ", and no least force becomes smaller"
     )
     return f"After $X$ = 1.25 m no verdict changes: the runs were continued for {extra}{margins}."
 

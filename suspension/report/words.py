@@ -5,6 +5,7 @@ A minus is a true minus sign, powers of ten are written as such, units stand bes
 """
 
 import math
+from decimal import Decimal
 from typing import NamedTuple
 
 __all__ = [
@@ -76,12 +77,13 @@ def quantity(x, unit, digits=3):
 
 
 def seconds(t, dt):
-    """A time read from samples `dt` apart, with the decimals it has; lengths alike.
+    """A time read from samples `dt` apart, with the decimals of the step; lengths alike.
 
-    >>> seconds(0.17400000000000002, 0.001), seconds(0.0565, 0.0005), seconds(0.7, 0.2)
-    ('0.174', '0.0565', '0.7')
+    >>> seconds(0.17400000000000002, 0.001), seconds(0.00075, 0.00025), seconds(0.7, 0.2)
+    ('0.174', '0.00075', '0.7')
     """
-    return fixed(t, max(0, math.ceil(-math.log10(dt) - 1e-9)))
+    decimals = -Decimal(f"{dt:.3g}").normalize().as_tuple().exponent
+    return fixed(t, max(0, decimals))
 
 
 def percent(fraction, digits=2):

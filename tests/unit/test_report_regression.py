@@ -76,7 +76,7 @@ def test_another_spring_is_contradicted_and_by_what(how, away):
 def test_intervals_that_hold_zero_are_not_enough():
     """The point (0, 0) can lie in the box and yet outside the ellipse."""
     fit = fitted(800, preload=0.02, curvature=-0.2)
-    assert fit.linearity().joint and fit.linearity().p < 0.05
+    assert fit.linearity().joint and fit.linearity().pvalue < 0.05
     text = regression.linearity(fit)
     assert text.startswith("Zero lies in both joint intervals, but the F test")
     assert "contradict" in text

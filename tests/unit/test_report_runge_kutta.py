@@ -141,7 +141,7 @@ def test_which_is_more_accurate(robot):
     theta, theta_finer = (exact.flat_ground(robot, W0, run.T)[2] for run in (fourth, finer))
     text = part.accuracy(fourth, second, theta)
     assert not faults(text)
-    assert "RK4 is more accurate: at" in text
+    assert "RK4 is more accurate than Crank-Nicolson: at" in text
     text = part.equal_work(fourth, finer, (theta, theta_finer))
     assert not faults(text)
     assert "8000 times" in text and "8001 times" in text

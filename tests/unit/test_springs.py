@@ -483,7 +483,7 @@ def test_the_f_test_is_that_of_the_two_nested_models():
     F = (straight - fit.results.ssr) / 2 / (fit.results.ssr / 18)
     test = fit.linearity()
     assert test.statistic == pytest.approx(F, rel=1e-9)
-    assert test.p == pytest.approx(stats.f.sf(F, 2, 18), rel=1e-9)
+    assert test.pvalue == pytest.approx(stats.f.sf(F, 2, 18), rel=1e-9)
 
 
 @pytest.mark.parametrize("beta, linear, joint", [
@@ -495,7 +495,7 @@ def test_the_f_test_is_that_of_the_two_nested_models():
 def test_a_spring_is_linear_if_neither_the_intervals_nor_the_test_object(beta, linear, joint):
     test = fit_spring(noisy(beta=beta, sigma=0.12, seed=4)).linearity()
     assert (test.linear, test.joint) == (linear, joint)
-    assert test.linear == (test.joint and test.p >= 0.05)
+    assert test.linear == (test.joint and test.pvalue >= 0.05)
 
 
 @pytest.mark.parametrize("beta, linear", [((0, 13.2, 0), True), ((0.5, 13.2, 0), False),
