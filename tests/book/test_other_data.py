@@ -13,7 +13,7 @@ import scipy.io
 from bs4 import BeautifulSoup
 from helpers import ROOT
 
-PARTS = ("suspension", "notebooks", "data", "book", "_config.yml", "_toc.yml")
+PARTS = ("suspension", "notebooks", "data", "book", "benchmarks", "_config.yml", "_toc.yml")
 NEVER = {
     "a number that is none": r"\bnan\b|\binf\b|\bNone\b|\bnone m/s",
     "a number of a programming language": r"\d[eE][+-]?\d",
