@@ -153,7 +153,7 @@ def test_the_other_way_round_is_told_too():
     fourth, second = released(robot, 0.2), released(robot, 0.2, CRANK_NICOLSON)
     theta = exact.flat_ground(robot, W0, fourth.T)[2]
     text = part.accuracy(fourth, second, theta)
-    assert "Crank-Nicolson is more accurate: at" in text
+    assert "Crank-Nicolson is more accurate than RK4: at" in text
     assert not faults(text)
 
 
