@@ -199,18 +199,14 @@ def parts(robot, bump):
     from scipy.linalg.lapack import dtbtrs
 
     from suspension.schemes import RK4
-    from suspension.simulation import simulate
+    from suspension.simulation import _band, simulate
 
     J, v, dt = 5000, 0.25, 1e-3
     rng = np.random.default_rng(0)
     x, y = rng.random(4 * J), rng.random((7, J))
     exponent, out, held = -x, np.empty(4 * J), np.empty_like(y)
-    # The steps w_{n+1} - R w_n = b_n, a matrix with ones on its diagonal and seven bands below.
     R, _ = RK4.one_step(robot.A, dt)
-    column = np.zeros((4, 8))
-    for j in range(4):
-        column[j, 4 - j : 8 - j] = -R[:, j]
-    band, b = np.tile(column, (J, 1)).T, rng.random(4 * J)
+    band, b = _band(R, J), rng.random(4 * J)
     runs = {
         "whole": lambda: simulate(robot, bump, v=v, dt=dt, tfinal=J * dt),
         "exponential": lambda: np.exp(exponent, out=out),

@@ -108,24 +108,25 @@ def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
     v, dt = _checks.number("v", v), _checks.positive("dt", dt)
     equilibrium = robot.equilibrium
     w0 = equilibrium if w0 is None else _checks.array("w0", w0, (4,))
-    T = dt * np.arange(steps(tfinal, dt) + 1)
-    with np.errstate(over="ignore", invalid="ignore"):  # an unstable run may overflow
-        W, N = _deviation(robot, road, v, T, dt, scheme, w0 - equilibrium)
-        W += equilibrium[:, None]
-        N += (robot.C @ equilibrium)[:, None]
-    W[:, 0] = w0
-    return Trajectory(T, W, N, v, dt, scheme)
-
-
-def _deviation(robot, road, v, T, dt, scheme, d0):
-    """States and forces as deviations from equilibrium, where the weight drops out.
-
-    So every scheme stays in equilibrium exactly. Starts from `d0`; shapes (4, J+1) and (2, J+1).
-    """
+    T = dt * np.arange(steps(tfinal, dt) + 1.0)
     W, N = np.empty((len(T), 4)), np.empty((2, len(T)))  # of W a step's four numbers side by side
-    W[0] = d0
-    N[:, 0] = robot.C @ d0 + _road_force(robot, road, v, T[:1])[:, 0]
+    with np.errstate(over="ignore", invalid="ignore"):  # an unstable run may overflow
+        _fill(W, N, robot, road, v, T, dt, scheme, w0)
+    return Trajectory(T, W.T, N, v, dt, scheme)
+
+
+def _fill(W, N, robot, road, v, T, dt, scheme, w0):
+    """Write the states, shape (J+1, 4), and the forces, shape (2, J+1), of a run from `w0`.
+
+    Computed as deviations from equilibrium, where the weight drops out: so every scheme stays in
+    equilibrium exactly.
+    """
+    equilibrium = robot.equilibrium
+    weight = robot.C @ equilibrium
     R, stages, band = _step(robot, scheme, dt)
+    d = w0 - equilibrium
+    W[0] = w0
+    N[:, 0] = weight + robot.C @ d + _road_force(robot, road, v, T[:1])[:, 0]
     for start in range(0, len(T) - 1, CHUNK):
         t = T[start : start + CHUNK + 1]
         at_ends = _road_force(robot, road, v, t)
@@ -138,11 +139,12 @@ def _deviation(robot, road, v, T, dt, scheme, d0):
             else:
                 f = _road_force(robot, road, v, t[:-1] + c * dt)
             b += f.T @ GP.T
-        b[0] += R @ W[start]
+        b[0] += R @ d
+        deviation = _forward_substitution(band, b)
+        d = deviation[-1]
         later = slice(start + 1, start + len(t))
-        W[later] = _forward_substitution(band, b)
-        N[:, later] = robot.C @ W[later].T + at_ends[:, 1:]
-    return W.T, N
+        W[later] = deviation + equilibrium
+        N[:, later] = robot.C @ deviation.T + at_ends[:, 1:] + weight[:, None]
 
 
 @lru_cache(maxsize=8)
