@@ -7,6 +7,6 @@ Markdown, with a branch for every case.
 """
 
 from suspension.report.rows import table
-from suspension.report.show import answer, say, show_figure, source
+from suspension.report.show import answer, listing, say, show_figure
 
-__all__ = ["answer", "say", "show_figure", "source", "table"]
+__all__ = ["answer", "listing", "say", "show_figure", "table"]

@@ -10,7 +10,19 @@ import inspect
 import matplotlib.pyplot as plt
 from IPython.display import Markdown, display
 
-__all__ = ["answer", "say", "show_figure", "source"]
+__all__ = ["answer", "listing", "say", "show_figure"]
+
+UNITS = {
+    "g": "m/s²",
+    "m": "kg",
+    "Izz": "kg m²",
+    "L1": "m",
+    "L2": "m",
+    "c1": "N s/m",
+    "c2": "N s/m",
+    "k1": "N/m, from Question 1",
+    "k2": "N/m",
+}
 
 
 def say(*parts, name=None):
@@ -59,11 +71,34 @@ def answer(item, *parts):
     say(f"**Answer {item}.** {parts[0]}", *parts[1:], name=name)
 
 
-def source(function):
-    """The code of a function as a Markdown block, without its docstring."""
+def listing(imports, parameters, *functions):
+    """A script that runs by itself, as a Markdown block: paste it into an empty file.
+
+    Parameters
+    ----------
+    imports : str
+        Its first lines.
+    parameters : dict
+        Numbers that the functions use by name.
+    *functions : callable
+        Their code follows, without docstrings; the last one is called, without arguments.
+    """
+    numbers = [f"{name} = {value!r}" + _unit(name) for name, value in parameters.items()]
+    code = [_source(function) for function in functions]
+    call = f"{functions[-1].__name__}()"
+    parts = [imports.strip() + "\n\n" + "\n".join(numbers), *code, call]
+    return "```python\n" + "\n\n\n".join(parts) + "\n```"
+
+
+def _unit(name):
+    return f"  # {UNITS[name]}" if name in UNITS else ""
+
+
+def _source(function):
     code = inspect.getsource(function)
-    doc = ast.parse(code).body[0].body[0]
+    body = ast.parse(code).body[0]
     lines = code.splitlines()
-    if ast.get_docstring(ast.parse(code).body[0]):
+    if ast.get_docstring(body):
+        doc = body.body[0]
         del lines[doc.lineno - 1 : doc.end_lineno]
-    return "\n".join(["```python", *lines, "```"])
+    return "\n".join(lines)

@@ -1,11 +1,15 @@
 """What a notebook shows carries the names by which the book finds it."""
 
+import subprocess
+import sys
+
 import matplotlib.pyplot as plt
+import numpy as np  # noqa: F401
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
-from suspension.report import answer, say, show_figure, source
+from suspension.report import answer, listing, say, show_figure
 from suspension.report.words import Caption
 
 
@@ -45,6 +49,15 @@ def test_a_sentence_without_a_name_has_none():
     assert name_of(shown(say, "One.", "Two.")[0][1]) is None
 
 
-def test_source_leaves_out_the_docstring():
-    text = source(shown)
-    assert text.startswith("```python\ndef shown") and "metadata of what" not in text
+def area():
+    """Print the area of a plate."""
+    print(np.prod([width, height]))  # noqa: F821
+
+
+def test_a_listing_runs_in_an_empty_file(tmp_path):
+    text = listing("import numpy as np", {"width": 3, "height": 4, "g": 9.81}, area)
+    assert "g = 9.81  # m/s²\n" in text and "Print the area" not in text
+    script = tmp_path / "script.py"
+    script.write_text(text.removeprefix("```python\n").removesuffix("```"), encoding="utf-8")
+    done = subprocess.run([sys.executable, "-I", script], capture_output=True, text=True)
+    assert done.stdout == "12\n", done.stderr
