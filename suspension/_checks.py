@@ -1,5 +1,6 @@
 """Arguments that cannot mean anything are refused, by name, before any computing starts."""
 
+from math import isfinite, nan
 from numbers import Number, Real
 from reprlib import repr as short
 
@@ -21,15 +22,25 @@ __all__ = [
 
 def number(name, value, allowed="a finite number", test=lambda x: True):
     """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
-    scalar = np.ndim(value) == 0 and not np.ma.is_masked(value)
+    x = value if isinstance(value, float) else _as_float(value)
+    if not (isfinite(x) and test(x)):
+        raise ValueError(f"{name} must be {allowed}, got {value!r}")
+    return float(x)
+
+
+def _as_float(value):
+    """A real number as a float; anything else as nan."""
+    scalar = np.ndim(value) == 0 and not _is_masked(value)
     real = scalar and (isinstance(value, Number) or np.asarray(value).dtype.kind in "biuf")
     try:
-        x = float(value) if real and not np.iscomplexobj(value) else np.nan
+        return float(value) if real and not np.iscomplexobj(value) else nan
     except (TypeError, ValueError, OverflowError):
-        x = np.nan
-    if not (np.isfinite(x) and test(x)):
-        raise ValueError(f"{name} must be {allowed}, got {value!r}")
-    return x
+        return nan
+
+
+def _is_masked(value):
+    # The first condition is quick, and false for nearly everything.
+    return isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value)
 
 
 def positive(name, value):
@@ -86,7 +97,7 @@ def function(name, value, signature):
 
 def array(name, value, shape=None, dtype=float, finite=True):
     """Return `value` as an array of the given shape; None in `shape` stands for any length."""
-    if np.ma.is_masked(value):
+    if _is_masked(value):
         raise ValueError(f"{name} must have no masked elements, got {short(value)}")
     try:
         x = np.asarray(value)
