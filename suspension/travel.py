@@ -97,10 +97,8 @@ def overtravel(robot, bump, limit, vmin, vmax):
     --------
     >>> from suspension.road import GaussianBump
     >>> from suspension.robot import Robot
-    >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.1, 30).round(2)
-    array([[ 0.38,  0.41],
-           [ 0.41,  0.44],
-           [ 0.73, 30.  ]])
+    >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.5, 2).round(2)
+    array([[0.73, 2.  ]])
     """
     limit = _checks.positive("limit", limit)
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)

@@ -123,6 +123,7 @@ def test_the_fitted_order_is_the_slope_on_logarithmic_axes():
         assert accuracy.fitted_order(dts, 3 * dts**order) == pytest.approx(order)
 
 
+@pytest.mark.slow
 def test_steps_fitted_between_the_switches_keep_the_order_that_blind_ones_lose():
     steps = np.array([200, 400, 800])
     blind, located = accuracy.flight_errors(ROBOT, BUMP, v=5, tfinal=0.25, steps=steps)
@@ -130,6 +131,7 @@ def test_steps_fitted_between_the_switches_keep_the_order_that_blind_ones_lose()
     assert located[-1] < 1e-3 * blind[-1]
 
 
+@pytest.mark.slow
 def test_without_a_switch_both_are_the_same():
     blind, located = accuracy.flight_errors(ROBOT, BUMP, v=0.25, tfinal=1.0, steps=[500])
     assert not fly(ROBOT, BUMP, v=0.25, tfinal=1.0).events

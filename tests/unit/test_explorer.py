@@ -354,6 +354,7 @@ def test_the_still_picture_cuts_the_digits_of_its_lines_only():
     assert not re.search(r"\.\d{3}", lines)
 
 
+@pytest.mark.slow
 def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -223,6 +223,7 @@ def test_points_are_marked_stable_where_no_mode_grows(scheme):
         near(z, ROBOT.eigenvalues * dt, 1e-15)
 
 
+@pytest.mark.slow
 def test_the_points_of_the_smallest_step_are_enlarged_in_an_inset():
     dts = [0.05, 0.001, 0.3]
     ax = plot_stability(RK4, ROBOT.eigenvalues, dts)

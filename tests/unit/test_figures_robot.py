@@ -79,6 +79,7 @@ def test_the_whole_way_and_the_bump_are_in_the_picture(drawing):
     assert drawing.ax.get_aspect() == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stride, frames", [(1, 13), (5, 3)])
 def test_an_animation_is_saved_as_a_gif_that_moves(tmp_path, stride, frames):
     run = simulate(ROBOT, BUMP, v=1.2, dt=0.05, tfinal=0.6)
@@ -95,6 +96,7 @@ def test_an_animation_is_saved_as_a_gif_that_moves(tmp_path, stride, frames):
     assert all(np.max(ImageChops.difference(*pair)) > 100 for pair in pairwise(pictures))
 
 
+@pytest.mark.slow
 def test_the_problems_robot_and_bump_are_drawn_unless_others_are_given(tmp_path):
     run = simulate(the_robot(), BUMP, v=1, dt=0.2, tfinal=0.2)
 

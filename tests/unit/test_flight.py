@@ -126,6 +126,7 @@ def test_brute_force_at_two_microseconds(
         assert abs(event.force - N[wheel - 1, j + 1]) < 0.02
 
 
+@pytest.mark.slow
 def test_the_two_wheel_models_differ_by_more_than_brute_force_errs():
     follows, relaxes = (run(LOPSIDED, 1.2, 0.6, wheel) for wheel in MODELS)
     landings = [[e.t for e in f.events if e.kind == "landing"] for f in (follows, relaxes)]
@@ -357,6 +358,7 @@ def test_no_switch_is_made_of_roundoff():
         assert event[:2] == other[:2] and abs(event.t - other.t) < 1e-8
 
 
+@pytest.mark.slow
 def test_settled():
     quiet = run(ROBOT, 0.25, 5, "follows")
     t = quiet.settled(ROBOT)

@@ -59,6 +59,7 @@ def test_the_docstring_is_a_map_of_the_package():
         assert module.startswith("_") or f"`{module}`" in suspension.__doc__, module
 
 
+@pytest.mark.slow
 def test_it_loads_nothing_heavy(fresh, record_property):
     numpy_and_scipy, package, modules = fresh
     record_property("import of the package after NumPy and SciPy, s", round(package, 3))

@@ -90,6 +90,7 @@ def test_the_four_speeds_of_the_problem(k, lost):
     assert {v for v in (0.25, 1.2, 5, 10) if margin(robot, BUMP, v) <= 0} == lost
 
 
+@pytest.mark.slow
 @quick
 @given(robot=robots, bump=bumps, v=near(1.5, 10))
 def test_no_finer_sample_lies_below_the_minimum_nor_far_above(robot, bump, v):

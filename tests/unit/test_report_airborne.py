@@ -67,11 +67,13 @@ def test_who_flies_follows_the_spring(k, words):
     assert words in plain(part.who_flies(runs, linear))
 
 
+@pytest.mark.slow
 def test_a_run_that_does_not_settle_is_told_so():
     table = part.flight_table([fly(ROBOTS["undamped"], BUMP, v=5, tfinal=1)], ROBOTS["undamped"])
     assert "> 1 |" in plain(table)
 
 
+@pytest.mark.slow
 def test_the_caption_says_which_of_the_shown_fly():
     runs = flights("k = 405")
     assert "At 5 m/s no wheel" in plain(part.flight_caption([runs[1.2], runs[5]]).text)
@@ -110,6 +112,7 @@ def test_the_models_agree_or_not_as_the_numbers_say():
     assert "Without dampers" in plain(undamped)
 
 
+@pytest.mark.slow
 def test_the_pitch_in_the_air_is_compared_with_the_pitch_before():
     robot = ROBOTS["k = 793"]
     run = {1.2: flights("k = 793")[1.2]}

@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import matplotlib.pyplot as plt
-import numpy as np  # noqa: F401
+import numpy as np
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output

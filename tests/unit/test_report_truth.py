@@ -49,6 +49,7 @@ def test_what_is_said_about_a_mode_is_sound(name):
         assert not faults(text)
 
 
+@pytest.mark.slow
 @each_robot
 def test_the_measured_orders_are_told(name):
     robot, dts = ROBOTS[name], 0.002 / 2.0 ** np.arange(5)

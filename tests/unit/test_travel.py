@@ -71,6 +71,7 @@ def test_overtravel_splits_the_speeds_where_the_limit_is_passed(robot, limit):
     assert all(high < low for (_, high), (low, _) in pairwise(ranges))
 
 
+@pytest.mark.slow
 def test_overtravel_is_none_or_all_where_the_limit_is_out_of_reach():
     assert overtravel(ROBOT, BUMP, 1.0, 1, 3).shape == (0, 2)
     near(overtravel(ROBOT, BUMP, 1e-4, 1, 3), [[1, 3]], 1e-12)
@@ -111,6 +112,7 @@ def test_the_moments_of_a_flight_are_told_in_order_and_are_those_of_its_events()
     assert all(0 <= t <= flight.T[-1] for t in times)
 
 
+@pytest.mark.slow
 def test_the_moments_without_a_flight_are_the_wheels_on_the_bump():
     v = critical_speeds(ROBOT, BUMP, 0.3, 0.6)[0] / 2
     told = moments(fly(ROBOT, BUMP, v=v, tfinal=1.25 / v), ROBOT, BUMP)

@@ -122,6 +122,7 @@ def test_a_pair_is_born():
     assert born[0].low < born[0].born.v == born[1].low < born[1].high
 
 
+@pytest.mark.slow
 def test_a_critical_speed_that_leaves_the_range_says_where():
     (only,) = intervals(600, 100, 5.2, 8.0)
     assert only.born is not None and only.born.why == "range" and only.dies is None
@@ -129,12 +130,14 @@ def test_a_critical_speed_that_leaves_the_range_says_where():
     assert margin(robot_at(only.exists_from), BUMP, 5.2) == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_critical_speed_that_hardly_leaves_the_range_is_not_counted_twice():
     (only,) = intervals(960, 30, 0.39974, 0.41)  # leaves it by 1.5e-5 of its value, for 4 N/m
     assert only.low == pytest.approx(0.39974, rel=1e-4)
     assert only.speed == pytest.approx(0.400242, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_stiffness_known_exactly_has_critical_speeds_known_exactly():
     exact = Stiffness("exact", 800.0, 0.0, 18)
     found = critical_speed_intervals(exact, ROBOT, BUMP, *FAST)
