@@ -1,14 +1,15 @@
 """Figures of the report: a function draws what it is given and returns its axes.
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
-the style. One module for each subject: `regression`, `stability`, `forces`, `errors`, `speeds`,
-and `robot`, the robot itself, still or moving.
+the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
+`speeds`, and `robot`, the robot itself, still or moving.
 """
 
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
 from suspension.figures.forces import plot_all_forces, plot_flight, plot_forces
 from suspension.figures.regression import plot_confidence_region, plot_fit, plot_residuals
 from suspension.figures.robot import RobotDrawing, animate_robot, film
+from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
 
@@ -28,9 +29,12 @@ __all__ = [
     "plot_margin_map",
     "plot_missed_dip",
     "plot_near_zero",
+    "plot_pitch",
     "plot_residuals",
+    "plot_road_signal",
     "plot_seen_mode",
     "plot_sensitivities",
+    "plot_slopes",
     "plot_stability",
     "plot_travel",
 ]

@@ -16,20 +16,23 @@ from suspension.report.verdicts import (
     table_note,
     verdict_table,
 )
-from suspension.report.words import fixed, join, number, percent, quantity
+from suspension.report.words import Caption, count, fixed, join, number, percent, quantity
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
 
 __all__ = [
+    "coarse_caption",
     "contact",
     "contact_at_half_the_step",
     "eigenvalues",
     "final_pitch",
     "forces_figure",
     "forces_plots",
+    "frame_caption",
     "halving",
     "later",
     "matrix",
     "modes",
+    "road_caption",
     "stability",
     "stability_figure",
     "stability_plot",
@@ -92,6 +95,50 @@ def modes(robot):
     else:
         limit = f"And {fast} is the faster mode, so it is {fast} that limits the step."
     return " ".join([damping, explicit, limit])
+
+
+def road_caption(speeds):
+    """Caption of what a wheel feels of the bump at two speeds, m/s."""
+    slow, fast = sorted(speeds)
+    more = number(fast / slow, 2)
+    text = (
+        f"What a wheel feels of the bump at {slow:g} and at {quantity(fast, 'm/s')}: the height "
+        f"(left) and its rate of change (right). {more} times the speed makes the same height last "
+        f"{more} times shorter, and the rate {more} times larger."
+    )
+    alt = (
+        "Two panels against time. Left, the height under a wheel: a hill for each speed, equally "
+        f"high, that at {fast:g} m/s narrower. Right, its rate, up and down: at {fast:g} m/s "
+        "narrower and larger."
+    )
+    return Caption(text, alt)
+
+
+def coarse_caption(run):
+    """Caption of the pitch by very long steps beside the exact one."""
+    many = count(len(run.T) - 1, "step")
+    text = (
+        f"The pitch in {many} of {quantity(run.dt, 's')} by {run.scheme.name} (dots, joined for "
+        "the eye), and the exact one (line)."
+    )
+    alt = (
+        f"Pitch against time: the exact curve, and {many} by {run.scheme.name}, whose dots do "
+        "not lie on it."
+    )
+    return Caption(text, alt)
+
+
+def frame_caption(run, t):
+    """Caption of one frame of `animate_robot`."""
+    text = (
+        f"A frame of the animation at {quantity(run.v, 'm/s')}: the front wheel on the top of the "
+        f"bump, {quantity(t, 's')} after the start."
+    )
+    alt = (
+        "The robot in true proportions over the bump, with its front wheel on the top and its rear "
+        "wheel on the flat ground behind."
+    )
+    return Caption(text, alt)
 
 
 def stability_figure(eigenvalues, dts):
