@@ -33,6 +33,7 @@ __all__ = [
     "growth_figure",
     "limit",
     "reach",
+    "slopes_caption",
     "stability",
     "stability_figure",
     "stability_plot",
@@ -40,6 +41,21 @@ __all__ = [
 
 PAGE = "03-runge-kutta"
 ROUNDOFF = 1e-9  # a mode whose amplitude grows by less has kept it
+
+
+def slopes_caption(end, truth):
+    """Caption of one long step of RK4, that ends at `end` where the solution is `truth`."""
+    off = quantity(100 * abs(end / truth - 1), "%", 2)
+    text = (
+        "One step of RK4. Each symbol is a place where it looks, each short line the slope it "
+        f"finds there; the dashed line has their weighted mean. It ends (star) within {off} of "
+        "the exact solution."
+    )
+    alt = (
+        "A curve, the exact solution, with four short slopes at the start, twice in the middle and "
+        "at the end of one step, and the dashed straight line of the step, which ends on the curve."
+    )
+    return Caption(text, alt)
 
 
 def stability_figure(eigenvalues, dts):
