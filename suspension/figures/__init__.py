@@ -7,7 +7,12 @@ the style. One module for each subject: `regression`, `stability`, `forces`, `si
 
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
 from suspension.figures.forces import plot_all_forces, plot_flight, plot_forces
-from suspension.figures.regression import plot_confidence_region, plot_fit, plot_residuals
+from suspension.figures.regression import (
+    plot_confidence_region,
+    plot_experiments,
+    plot_fit,
+    plot_residuals,
+)
 from suspension.figures.robot import RobotDrawing, animate_robot, film
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
@@ -20,6 +25,7 @@ __all__ = [
     "plot_all_forces",
     "plot_confidence_region",
     "plot_errors",
+    "plot_experiments",
     "plot_fit",
     "plot_flight",
     "plot_forces",

@@ -6,7 +6,7 @@ from scipy import stats
 
 from suspension.figures.style import axes_or_new
 
-__all__ = ["plot_confidence_region", "plot_fit", "plot_residuals"]
+__all__ = ["plot_confidence_region", "plot_experiments", "plot_fit", "plot_residuals"]
 
 
 def plot_fit(fit, data, level=0.95, ax=None):
@@ -79,5 +79,26 @@ def plot_confidence_region(fit, i=0, j=2, level=0.95, ax=None):
     ax.plot(0, 0, "ko", label="linear spring, (0, 0)")
     ax.set(xlabel=rf"$\beta_{i}$ (N)", ylabel=rf"$\beta_{j}$ (N)")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    ax.autoscale_view()
+    return ax
+
+
+def plot_experiments(centres, halves, truth, ax=None):
+    """The boxes that repeated experiments draw around their estimates of two coefficients.
+
+    Parameters
+    ----------
+    centres, halves : array_like, shape (n, 2)
+        Estimates of beta0 and beta2, and half-widths of their intervals, N.
+    truth : array_like, shape (2,)
+        What they estimate; boxes without it are drawn thick.
+    """
+    ax = axes_or_new(ax)
+    for centre, half in zip(centres, halves):
+        caught = np.all(np.abs(centre - truth) <= half)
+        style = {"ec": "C0", "lw": 0.6, "alpha": 0.35} if caught else {"ec": "C1", "lw": 1.8}
+        ax.add_patch(Rectangle(centre - half, *(2 * half), fc="none", **style))
+    ax.plot(*truth, "k+", ms=12, mew=2)
+    ax.set(xlabel=r"$\beta_0$ (N)", ylabel=r"$\beta_2$ (N)")
     ax.autoscale_view()
     return ax

@@ -21,7 +21,9 @@ from suspension.report.words import (
 
 __all__ = [
     "coefficients",
+    "coverage",
     "ellipse_figure",
+    "experiments_figure",
     "fit_figure",
     "fit_plot",
     "intervals",
@@ -212,6 +214,49 @@ def _neighbours(fit, points):
         f"Neighbouring residuals correlate with {fixed(correlation, 2)}, {than} the "
         f"±{fixed(chance, 2)} that chance alone gives."
     )
+
+
+def experiments_figure(shown, missed):
+    """Caption of the boxes of repeated experiments, `missed` of which do not hold the truth."""
+    text = (
+        f"The joint boxes (p = 2) of {shown} invented experiments with the same truth (cross). "
+        f"{count(missed, 'box misses', 'boxes miss').capitalize()} it (thick, orange)."
+    )
+    alt = (
+        f"{shown} overlapping rectangles in the plane of preload and curvature around a cross; "
+        f"{count(missed, 'rectangle does', 'rectangles do')} not contain it."
+    )
+    return Caption(text, alt)
+
+
+def coverage(shares, experiments, level=0.95):
+    """How often each kind of box held both true coefficients, and which keep the promise.
+
+    Parameters
+    ----------
+    shares : dict of str to float
+        Part of the experiments in which both intervals held the truth, by kind.
+    experiments : int
+        How many there were.
+    """
+    spread = math.sqrt(level * (1 - level) / experiments)  # of a share that is `level` in truth
+    rows = [
+        {"intervals": name, "both right in": percent(share, 3)} for name, share in shares.items()
+    ]
+    kept = [name for name, share in shares.items() if share >= level - 3 * spread]
+    broken = [name for name in shares if name not in kept]
+    promise = (
+        f"Of {experiments:,} experiments (a count that is itself known to ±{percent(spread, 1)})"
+    )
+    if not broken:
+        verdict = f"every kind of interval kept the promise of {percent(level)}."
+    else:
+        verdict = (
+            f"{join(kept)} kept the promise of {percent(level)} for both coefficients at once, "
+            f"{join(broken)} did not."
+        )
+    more = "A box does better than the ellipse it is made of: it is larger, its corners come free."
+    return f"{table(rows)}\n\n{promise}, {verdict} {more}"
 
 
 def summary(fit):
