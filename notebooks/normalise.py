@@ -1,8 +1,8 @@
-"""Execute notebooks and store in them only what the tests compare: ``make notebooks``.
+"""Execute notebooks, store in them what the tests compare: ``make notebooks``.
 
-Outputs of cells tagged ``nbval-ignore-output`` (figures, widgets, timings) are dropped, pictures
-and widget state everywhere; execution counts run 1, 2, 3, as nbval wants them. Running it twice
-changes nothing.
+Outputs of cells tagged ``nbval-ignore-output`` (figures, widgets, timings) are
+dropped, pictures and widget state everywhere; execution counts run 1, 2, 3, as
+nbval wants them. Running it twice changes nothing.
 """
 
 import sys
@@ -12,7 +12,11 @@ import nbformat
 from nbclient import NotebookClient
 
 KERNEL = {
-    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "kernelspec": {
+        "display_name": "Python 3 (ipykernel)",
+        "language": "python",
+        "name": "python3",
+    },
     "language_info": {"name": "python"},
 }
 PICTURES = ("image/", "application/vnd.jupyter.widget")
@@ -33,7 +37,11 @@ def normalise(notebook):
         count += 1
         cell.execution_count = count
         ignored = "nbval-ignore-output" in cell.metadata.get("tags", [])
-        cell.outputs = [] if ignored else [comparable(output, count) for output in cell.outputs]
+        cell.outputs = (
+            []
+            if ignored
+            else [comparable(output, count) for output in cell.outputs]
+        )
     return notebook
 
 

@@ -16,7 +16,17 @@ from suspension.report.verdicts import (
     table_note,
     verdict_table,
 )
-from suspension.report.words import Caption, count, fixed, join, number, percent, quantity
+from suspension.report.words import (
+    SPACE,
+    Caption,
+    count,
+    fixed,
+    join,
+    number,
+    percent,
+    quantity,
+    seconds,
+)
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
 
 __all__ = [
@@ -102,9 +112,9 @@ def road_caption(speeds):
     slow, fast = sorted(speeds)
     more = number(fast / slow, 2)
     text = (
-        f"What a wheel feels of the bump at {slow:g} and at {quantity(fast, 'm/s')}: the height "
-        f"(left) and its rate of change (right). {more} times the speed makes the same height last "
-        f"{more} times shorter, and the rate {more} times larger."
+        f"What a wheel feels of the bump at {slow:g} and at {fast:g}{SPACE}m/s: the height (left) "
+        f"and its rate of change (right). With {more} times the speed the height passes in a "
+        f"fraction of 1/{more} of the time, and the rate is {more} times as large."
     )
     alt = (
         "Two panels against time. Left, the height under a wheel: a hill for each speed, equally "
@@ -129,10 +139,10 @@ def coarse_caption(run):
 
 
 def frame_caption(run, t):
-    """Caption of one frame of `animate_robot`."""
+    """Caption of the robot with its front wheel on the top of the bump."""
     text = (
-        f"A frame of the animation at {quantity(run.v, 'm/s')}: the front wheel on the top of the "
-        f"bump, {quantity(t, 's')} after the start."
+        f"The robot at {run.v:g}{SPACE}m/s with its front wheel on the top of the bump, "
+        f"{seconds(t, run.dt)}{SPACE}s after the start."
     )
     alt = (
         "The robot in true proportions over the bump, with its front wheel on the top and its rear "

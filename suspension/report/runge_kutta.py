@@ -53,7 +53,7 @@ def slopes_caption(end, truth):
     )
     alt = (
         "A curve, the exact solution, with four short slopes at the start, twice in the middle and "
-        "at the end of one step, and the dashed straight line of the step, which ends on the curve."
+        "at the end of one step, and the dashed straight line of the step, ending near the curve."
     )
     return Caption(text, alt)
 

@@ -58,7 +58,7 @@ def test_is_as_make_notebooks_leaves_it(path):
 
 def test_code_fits_the_page(path):
     for cell in code_cells(path):
-        assert max(map(len, cell.source.splitlines()), default=0) <= 100, cell.source
+        assert max(map(len, cell.source.splitlines()), default=0) <= 84, cell.source
 
 
 def test_holds_plain_markdown_only(path):
