@@ -1,10 +1,11 @@
-"""Execute notebooks, store in them what the tests compare: ``make notebooks``.
+"""Execute notebooks; store what the tests compare, and figures: `make notebooks`.
 
-Outputs of cells tagged ``nbval-ignore-output`` (figures, widgets, timings) are
-dropped, pictures and widget state everywhere; execution counts run 1, 2, 3, as
-nbval wants them. Running it twice changes nothing.
+Of cells tagged `nbval-ignore-output` only figures are kept: JupyterLab shows them
+before anything is run. Widgets and timings are dropped. Execution counts run
+1, 2, 3, as nbval wants them. Running it twice changes nothing.
 """
 
+import os
 import sys
 from pathlib import Path
 
@@ -19,11 +20,11 @@ KERNEL = {
     },
     "language_info": {"name": "python"},
 }
-PICTURES = ("image/", "application/vnd.jupyter.widget")
+FIGURE = "image/svg+xml"
 
 
 def normalise(notebook):
-    """A copy of an executed notebook that holds only what the tests compare."""
+    """A copy of an executed notebook that holds only what is compared or drawn."""
     notebook = nbformat.from_dict(notebook)
     notebook.metadata = nbformat.from_dict(KERNEL)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
@@ -36,28 +37,31 @@ def normalise(notebook):
             continue
         count += 1
         cell.execution_count = count
-        ignored = "nbval-ignore-output" in cell.metadata.get("tags", [])
-        cell.outputs = (
-            []
-            if ignored
-            else [comparable(output, count) for output in cell.outputs]
-        )
+        compared = "nbval-ignore-output" not in cell.metadata.get("tags", [])
+        wanted = [
+            x for x in cell.outputs if compared or FIGURE in x.get("data", {})
+        ]
+        cell.outputs = [plain(output, count) for output in wanted]
     return notebook
 
 
-def comparable(output, count):
-    """An output without its pictures, widgets and addresses."""
+def plain(output, count):
+    """An output without addresses, widgets, and pictures other than figures."""
     if "execution_count" in output:
         output.execution_count = count
     if "data" in output:
         output.metadata = nbformat.from_dict({})
-        for mime in [mime for mime in output.data if mime.startswith(PICTURES)]:
-            del output.data[mime]
+        for mime in list(output.data):
+            if mime.startswith(("image/", "application/")) and mime != FIGURE:
+                del output.data[mime]
     return output
 
 
 def main(paths):
     """Execute and normalise the files in place."""
+    os.environ["SOURCE_DATE_EPOCH"] = (
+        "0"  # matplotlib writes the date into a figure
+    )
     for path in map(Path, paths):
         notebook = nbformat.read(path, as_version=4)
         client = NotebookClient(

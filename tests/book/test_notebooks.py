@@ -42,11 +42,14 @@ def test_stores_numbers_to_compare(path):
     assert any(character.isdigit() for text in stored for character in text)
 
 
-def test_stores_neither_pictures_nor_widgets_nor_errors(path):
+def test_stores_figures_but_neither_widgets_nor_errors(path):
     notebook = nbformat.read(path, as_version=4)
     outputs = [output for cell in code_cells(path) for output in cell.outputs]
     mimes = {mime for output in outputs for mime in output.get("data", {})}
-    assert not {mime for mime in mimes if mime.startswith(("image/", "application/"))}
+    rich = {mime for mime in mimes if mime.startswith(("image/", "application/"))}
+    assert rich <= {"image/svg+xml"}
+    shows = sum("show_figure(" in cell.source for cell in code_cells(path))
+    assert sum("image/svg+xml" in output.get("data", {}) for output in outputs) == shows
     assert "widgets" not in notebook.metadata
     assert not [output for output in outputs if output.output_type == "error"]
 
