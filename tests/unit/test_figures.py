@@ -15,6 +15,7 @@ from suspension.figures import (
     plot_all_forces,
     plot_confidence_region,
     plot_errors,
+    plot_experiments,
     plot_fit,
     plot_flight,
     plot_forces,
@@ -24,9 +25,12 @@ from suspension.figures import (
     plot_margin_map,
     plot_missed_dip,
     plot_near_zero,
+    plot_pitch,
     plot_residuals,
+    plot_road_signal,
     plot_seen_mode,
     plot_sensitivities,
+    plot_slopes,
     plot_stability,
     plot_travel,
 )
@@ -56,6 +60,7 @@ ERRORS = {"Euler": DTS, "RK4": DTS**4}
 HEAVE = {1.2: 0.01 * np.sin(V), 5.0: 0.01 * np.cos(V)}
 SENSITIVE = {"$k$": [1, 2], "$c$": [-1, 0.5], "$m$": [0.1, -0.3]}
 T = np.linspace(0, 1, 101)
+BOXES = np.array([[0.0, 0.0], [3.0, 0.0]]), np.ones((2, 2))  # the second misses the origin
 DIP = 1 - 1.1 * np.exp(-(((T - 0.55) / 0.02) ** 2))
 
 ON_ONE = {
@@ -71,16 +76,21 @@ ON_ONE = {
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
     "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
+    "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
+    "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
+    "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
 ON_TWO = {
     "plot_residuals": lambda axes: plot_residuals(FIT, DATA, axes),
+    "plot_road_signal": lambda axes: plot_road_signal({1.2: (T, T, T), 5: (T, 0 * T, T)}, axes),
     "plot_flight": lambda axes: plot_flight(FLIGHT, LINEAR, axes),
     "plot_missed_dip": lambda axes: plot_missed_dip(T, DIP, T[::10], DIP[::10], axes),
     "plot_travel": lambda axes: plot_travel(V, 0.01 + 0 * V, 0.1 + 0 * V, 0.0165, axes),
 }
 PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $n$", "amplitude of the mode"]
+PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|N|mm|N/m|m/s|degrees|%)\)"
+UNITS = r"\((m|s|ms|N|mm|N/m|m/s|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -399,3 +409,16 @@ def test_a_film_has_a_frame_for_every_time(history, times):
     for ax, t in zip(figure.axes, times, strict=True):
         assert f"t = {t:.3f} s" in [text.get_text() for text in ax.texts]
     figure.canvas.draw()
+
+
+def test_a_box_that_misses_the_truth_is_drawn_thicker():
+    caught, missed = plot_experiments(*BOXES, np.zeros(2)).patches
+    assert missed.get_linewidth() > caught.get_linewidth()
+    assert missed.get_edgecolor() != caught.get_edgecolor()
+
+
+def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
+    ax = plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T))
+    first, second = ax.lines[1], ax.lines[3]
+    near(np.polyfit(*first.get_data(), 1), [-1, 1], 1e-12)
+    near(np.polyfit(*second.get_data(), 1), [0, 0.5], 1e-12)

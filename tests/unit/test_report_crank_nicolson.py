@@ -216,3 +216,12 @@ def test_every_robot_gets_its_verdict():
         text = part.contact(drives(robot), compressions(robot), robot, STRAIGHT)
         assert not faults(text)
         assert not faults(part.later(drives(robot), drives(robot, beyond=1.5)))
+
+
+def test_captions_of_the_road_and_of_long_steps_are_sound():
+    run, _ = released(Robot(793, 793), 0.2)
+    captions = part.road_caption([5, 1.2]), part.coarse_caption(run), part.frame_caption(run, 0.4)
+    for caption in captions:
+        assert not faults(caption.text) and not faults(caption.alt)
+    assert "1.2 and at 5" in captions[0].text and "4.2 times the speed" in captions[0].text
+    assert "10 steps of 0.200" in captions[1].text and "0.4\u00a0s" in captions[2].text

@@ -105,3 +105,22 @@ def test_residuals_of_too_few_readings_say_so():
 def test_precise_data_are_not_known_to_zero_per_cent():
     assert "±0.0" in prose(regression.summary(fitted(800, noise=1e-4)))
     assert not faults(regression.summary(fitted(800, noise=1e-4)))
+
+
+@pytest.mark.parametrize(
+    ("shares", "says"),
+    [
+        ({"joint": 0.97, "alone": 0.91}, "joint kept the promise of 95\u00a0%"),
+        ({"joint": 0.97, "alone": 0.96}, "every kind of interval kept the promise"),
+        ({"joint": 0.90, "alone": 0.91}, "none kept the promise"),
+    ],
+)
+def test_who_kept_the_promise_is_counted(shares, says):
+    text = regression.coverage(shares, 10_000)
+    assert not faults(text) and says in text
+
+
+def test_boxes_that_miss_are_counted_in_the_caption():
+    assert "Three boxes miss" in regression.experiments_figure(100, 3).text
+    assert "One box misses" in regression.experiments_figure(100, 1).text
+    assert "No boxes miss" in regression.experiments_figure(100, 0).text

@@ -187,3 +187,8 @@ def test_contact_by_both_methods(robot):
     caption = part.forces_figure(runs)
     assert "10(ii)" in caption.text and not faults(caption.alt)
     assert not faults(part.forces_plots(runs))
+
+
+def test_the_caption_of_the_slopes_says_how_far_the_step_ends_from_the_truth():
+    caption = part.slopes_caption(1.05, 1.0)
+    assert not faults(caption.text) and "within 5.0\u00a0%" in caption.text
