@@ -15,6 +15,7 @@ __all__ = ["BACKWARD_EULER", "CRANK_NICOLSON", "EULER", "RK4", "Scheme"]
 
 ROUNDOFF = 64 * np.finfo(float).eps
 MAX_POINTS = 10**5  # of a boundary, some ten seconds
+FINE = np.pi / 50  # rad, a step along a boundary that mistakes no other root for the next one
 TOLERANCE = 1e-12  # what eigenvalue solvers and printed tableaux leave
 
 
@@ -197,7 +198,7 @@ class Scheme:
         degree = max(p.degree() for p in self.polynomials)
         # The half curve takes pi for every root of R that it goes around: all of them, unless R
         # has another region of stability and this curve is back on the real axis before.
-        ends = self._follow(np.pi / 64 * np.arange(1, 64 * degree + 1))[63::64]
+        ends = self._follow(np.pi * np.arange(1, degree + 1))
         turns = 1 + np.append(np.abs(ends.imag[:-1]) < 1e-9, True).argmax()
         z = self._follow(turns * np.pi * (np.arange(half) + 0.5 * (n % 2 == 0)) / half)
         z = np.concatenate([z[::-1].conj(), z[n % 2 :]])
@@ -208,9 +209,13 @@ class Scheme:
         P, Q = self.polynomials
         z, at, before = [], 0j, 0.0
         for phi in phases:
-            slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
-            roots = (P - np.exp(1j * phi) * Q).roots()
-            at = roots[np.abs(roots - (at + (phi - before) * slope)).argmin()]
+            pieces = 1 + int(
+                (phi - before) / FINE
+            )  # so short that no other root is mistaken for it
+            for angle in np.linspace(before, phi, pieces + 1)[1:]:
+                slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
+                roots = (P - np.exp(1j * angle) * Q).roots()
+                at = roots[np.abs(roots - (at + (phi - before) / pieces * slope)).argmin()]
             before = phi
             z.append(at)
         return np.array(z)

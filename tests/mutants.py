@@ -53,12 +53,24 @@ OPERATORS = {
     ast.Or: ast.And,
 }
 # Module, what stood there, what stands there now, and why no test can see it.
+GUARD = "the size of a guard is a choice: any near it guards as well"
+DENSITY = "more samples than are needed change nothing"
 EQUIVALENT = {
-    (
-        "robot",
-        "9",
-        "10",
-    ): "modes as slow as each other are told apart by more digits than they have",
+    ("robot", "9", "10"): "modes as slow as each other agree in more digits than they have",
+    ("schemes", "5", "7.5"): GUARD,  # MAX_POINTS
+    ("schemes", "400", "600.0"): "as many points as a caller likes",
+    ("schemes", "1e-09", "1.000000001"): "a second region of stability, which no scheme here has",
+    ("simulation", "8", "9"): "the size of a cache",
+    ("simulation", "1", "1.5"): "the unit diagonal that LAPACK does not read",
+    ("simulation", "1", "2"): "the same",
+    ("least_force", "2", "3.0"): GUARD,  # MAX_SAMPLES
+    ("least_force", "1e-06", "1.5e-06"): GUARD,
+    ("least_force", "8", "12.0"): "an estimate of roundoff, safe by a factor or two",
+    ("least_force", "8", "9"): "the same",
+    ("least_force", "4", "6.0"): "the same",
+    ("least_force", "400", "600.0"): "about how many samples",
+    ("least_force", "2", "3"): DENSITY,
+    ("least_force", "30", "45.0"): DENSITY,
 }
 
 

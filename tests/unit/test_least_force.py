@@ -198,3 +198,20 @@ def test_a_flat_road_presses_with_half_the_weight():
 def test_what_cannot_be_is_refused(change, message):
     with pytest.raises((ValueError, TypeError), match=message):
         margin(**{"robot": Robot(K, K), "bump": BUMP, "v": 1.0} | change)
+
+
+@pytest.mark.parametrize("v", [0.02, 0.05, 0.1])
+def test_the_cost_is_foretold(v):
+    robot = Robot(K, K)
+    taken = len(turning_points(Crossing(robot, BUMP, v))[0])
+    assert 0.5 < least_force.sample_count(robot, v) / taken < 1.5
+
+
+def test_the_estimate_of_roundoff_grows_in_proportion_to_the_bump():
+    def estimate(height):
+        return least_force.roundoff(Crossing(Robot(K, K), GaussianBump(height), 1.2), 1.0)
+
+    none, one, two = (estimate(height) for height in (1e-12, 0.02, 0.04))
+    weight = 1.456 * 9.81 / 2
+    assert weight * np.finfo(float).eps < none < one
+    assert np.isclose(two - one, one - none)

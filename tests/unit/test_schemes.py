@@ -315,3 +315,19 @@ def test_an_inconsistent_tableau_is_refused_by_name(change, why):
 def test_a_bad_argument_is_refused_by_name(call, name):
     with pytest.raises(ValueError, match=f"^{name} must be"):
         call()
+
+
+def test_a_matrix_that_is_not_square_is_refused():
+    with pytest.raises(ValueError, match="A must be square"):
+        RK4.one_step(np.zeros((3, 4)), 0.1)
+
+
+@pytest.mark.parametrize("n", [4, 5, 6, 400, 401])
+def test_a_boundary_has_as_many_different_points_as_asked_for(n):
+    points = RK4.boundary(n)
+    assert len(np.unique(points.round(9), axis=0)) == n
+
+
+def test_a_boundary_of_too_many_points_is_refused():
+    with pytest.raises(ValueError, match="n must be at most"):
+        RK4.boundary(10**5 + 1)

@@ -278,3 +278,16 @@ def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"road": BUMP, "v": 1, "dt": 0.01, "tfinal": 0.1} | {name: value}
     with pytest.raises((ValueError, TypeError), match=f"^{name} must "):
         simulate(ROBOT, **arguments)
+
+
+def test_the_first_forces_are_those_of_the_initial_state():
+    w0 = [0.001, 0.2, -0.03, 1.0]
+    run = simulate(ROBOT, BUMP, v=1.2, dt=0.01, tfinal=0.1, w0=w0)
+    assert np.allclose(run.N[:, 0], normal_forces(ROBOT, BUMP, 1.2, [0.0], np.c_[w0])[:, 0])
+
+
+def test_a_trajectory_says_what_it_is_and_cannot_be_changed():
+    run = simulate(ROBOT, BUMP, v=1.2, dt=0.01, tfinal=0.1)
+    assert repr(run) == "<Trajectory: RK4, v = 1.2 m/s, dt = 0.01 s, 10 steps to t = 0.1 s>"
+    with pytest.raises(AttributeError):
+        run.v = 2
