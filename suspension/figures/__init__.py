@@ -8,7 +8,7 @@ and `robot`, the robot itself, still or moving.
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
 from suspension.figures.forces import plot_all_forces, plot_flight, plot_forces
 from suspension.figures.regression import plot_confidence_region, plot_fit, plot_residuals
-from suspension.figures.robot import RobotDrawing, animate_robot, film
+from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_modes
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
 
@@ -27,6 +27,7 @@ __all__ = [
     "plot_margin",
     "plot_margin_map",
     "plot_missed_dip",
+    "plot_modes",
     "plot_near_zero",
     "plot_residuals",
     "plot_seen_mode",

@@ -1,6 +1,7 @@
 """Sentences of Part V and the landing page, for springs and robots of every kind."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -202,7 +203,7 @@ def test_the_crossings_are_those_of_the_margin(name):
     edges, lost, _ = regimes(name)
     text = plain(part.crossings(edges, lost))
     assert not faults(text)
-    upwards = sum(before and not after for before, after in zip(lost[:-1], lost[1:]))
+    upwards = sum(before and not after for before, after in pairwise(lost))
     assert ("upwards at" in text) == bool(upwards)
     if upwards:
         assert text.split("upwards at ")[1].split(" m/s")[0].count(".") == upwards
