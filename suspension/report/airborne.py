@@ -44,8 +44,8 @@ def modes_caption():
     alt = (
         "State diagram with four boxes: both wheels press; the rear wheel in the air, so that N1 "
         "is zero; the front wheel in the air, so that N2 is zero; both in the air. Arrows lead "
-        "from each box to the two that differ from it in one wheel, and back. A wheel lifts off when "
-        "its f falls to zero and lands when p is at least p-circle and f is positive."
+        "from each box to the two that differ from it in one wheel, and back. A wheel lifts off "
+        "when its f falls to zero and lands when p is at least p-circle and f is positive."
     )
     return Caption(text, alt)
 

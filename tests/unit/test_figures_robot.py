@@ -139,8 +139,9 @@ def test_the_modes_are_the_four_states_of_two_wheels_with_arrows_both_ways():
     }
     assert forces == {(False, False), (True, False), (False, True), (True, True)}
     arrows = [text for text in ax.texts if getattr(text, "arrow_patch", None)]
-    ends = {(tuple(np.sign(np.subtract(a.xy, a.xyann))), a.arrow_patch.get_ec()) for a in arrows}
-    assert len(arrows) == 8 and len(ends) == 8  # each wheel switches off and on, in two places
+    ways = [(*np.sign(np.subtract(a.xy, a.xyann)), a.arrow_patch.get_ec()) for a in arrows]
+    assert len(ways) == 8  # each wheel switches off and on, in two places
+    assert [ways.count(way) for way in set(ways)] == [2, 2, 2, 2]
     for wheel in (1, 2):
         rules = [text for text in words if f"f_{wheel}$ falls to 0" in text]
         assert len(rules) == 2 and all(rf"p_{wheel} \geq p_{wheel}^" in text for text in rules)
