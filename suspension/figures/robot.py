@@ -135,8 +135,8 @@ def film(history, robot, road, times):
 
 MODES = {  # centre of each box, and what holds in it
     "both press": ((0.5, 0.87), "$N_1 = f_1,\\quad N_2 = f_2$"),
-    "rear wheel in the air": ((0.16, 0.5), "$N_1 = 0,\\quad N_2 = f_2$"),
-    "front wheel in the air": ((0.84, 0.5), "$N_1 = f_1,\\quad N_2 = 0$"),
+    "rear wheel in the air": ((0.17, 0.5), "$N_1 = 0,\\quad N_2 = f_2$"),
+    "front wheel in the air": ((0.83, 0.5), "$N_1 = f_1,\\quad N_2 = 0$"),
     "both in the air": ((0.5, 0.13), "$N_1 = 0,\\quad N_2 = 0$"),
 }
 SWITCHES = (  # of a wheel, with the mode in which it presses first
@@ -156,7 +156,7 @@ def plot_modes(ax=None):
     ax = plt.subplots(figsize=(6.6, 4.8))[1] if ax is None else ax
     ax.set(xlim=(0, 1), ylim=(0, 1))
     ax.axis("off")
-    middle = {"ha": "center", "va": "center", "linespacing": 1.7, "size": 10.5}
+    middle = {"ha": "center", "va": "center", "linespacing": 1.7, "size": 11.5}
     box = {"boxstyle": "round,pad=0.5", "fc": "0.96", "ec": "0.3", "lw": 1.2}
     for name, ((x, y), forces) in MODES.items():
         ax.text(x, y, f"{name}\n{forces}", bbox=box, **middle)
@@ -176,7 +176,7 @@ def plot_modes(ax=None):
             f"lift-off: $f_{wheel}$ falls to 0,\nset $p_{wheel}^\\circ$",
             f"landing: $p_{wheel} \\geq p_{wheel}^\\circ$, $f_{wheel} > 0$",
         )
-        style = {"ha": align, "va": "center", "color": colour, "linespacing": 1.6, "size": 10.5}
-        outward = 0.12 * np.sign(y - 0.5)
+        style = {"ha": align, "va": "center", "color": colour, "linespacing": 1.6, "size": 11.5}
+        outward = 0.13 * np.sign(y - 0.5)
         ax.text(edge, y + outward, "\n".join(rules), **style)
     return ax

@@ -148,9 +148,10 @@ def test_the_modes_are_the_four_states_of_two_wheels_with_arrows_both_ways():
 
 
 def test_no_word_of_the_modes_is_cut_off_or_covered():
-    ax = plot_modes()
-    ax.figure.canvas.draw()
-    boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    with plt.style.context("suspension.figures.report"):
+        ax = plot_modes()
+        ax.figure.canvas.draw()
+        boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
     assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if one.overlaps(other)]
     assert all(
         ax.figure.bbox.containsx(box.x0) and ax.figure.bbox.containsx(box.x1) for box in boxes
