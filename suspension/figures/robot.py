@@ -10,7 +10,7 @@ from suspension.figures.style import COLOURS
 from suspension.road import profile
 from suspension.robot import Robot
 
-__all__ = ["RobotDrawing", "animate_robot", "film"]
+__all__ = ["RobotDrawing", "animate_robot", "film", "plot_modes"]
 
 
 class RobotDrawing:
@@ -131,3 +131,52 @@ def film(history, robot, road, times):
         ax.text(0.01, 0.93, f"t = {t:.3f} s", transform=ax.transAxes, va="top")
         ax.label_outer()
     return figure
+
+
+MODES = {  # centre of each box, and what holds in it
+    "both press": ((0.5, 0.87), "$N_1 = f_1,\\quad N_2 = f_2$"),
+    "rear wheel in the air": ((0.17, 0.5), "$N_1 = 0,\\quad N_2 = f_2$"),
+    "front wheel in the air": ((0.83, 0.5), "$N_1 = f_1,\\quad N_2 = 0$"),
+    "both in the air": ((0.5, 0.13), "$N_1 = 0,\\quad N_2 = 0$"),
+}
+SWITCHES = (  # of a wheel, with the mode in which it presses first
+    (1, "both press", "rear wheel in the air"),
+    (2, "both press", "front wheel in the air"),
+    (2, "rear wheel in the air", "both in the air"),
+    (1, "front wheel in the air", "both in the air"),
+)
+
+
+def plot_modes(ax=None):
+    """The robot as a hybrid system: its four modes, and what leads from one to another.
+
+    In the notation of `suspension.flight`: ``f`` is Eq. 5, ``p`` the compression of a spring over a
+    wheel on the ground, ``p°`` that over the free wheel.
+    """
+    ax = plt.subplots(figsize=(6.6, 4.8))[1] if ax is None else ax
+    ax.set(xlim=(0, 1), ylim=(0, 1))
+    ax.axis("off")
+    middle = {"ha": "center", "va": "center", "linespacing": 1.7, "size": 11.5}
+    box = {"boxstyle": "round,pad=0.5", "fc": "0.96", "ec": "0.3", "lw": 1.2}
+    for name, ((x, y), forces) in MODES.items():
+        ax.text(x, y, f"{name}\n{forces}", bbox=box, **middle)
+    always = ("always  $\\dot w = S w + P N + e$", "switches leave $w$ as it is")
+    ax.text(0.5, 0.5, "\n".join(always), **middle)
+    for wheel, pressing, free in SWITCHES:
+        start, end = np.array(MODES[pressing][0]), np.array(MODES[free][0])
+        colour = COLOURS[wheel - 1]
+        arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
+        beside = np.array([0.02 * np.sign(end[0] - start[0]), 0.0])  # of there and back
+        for a, b, shift in ((start, end, beside), (end, start, -beside)):
+            tail, head = a + 0.26 * (b - a) + shift, a + 0.74 * (b - a) + shift
+            ax.annotate("", head, tail, arrowprops=arrow)
+        x, y = (start + end) / 2
+        edge, align = (0.02, "left") if x < 0.5 else (0.98, "right")
+        rules = (
+            f"lift-off: $f_{wheel}$ falls to 0,\nset $p_{wheel}^\\circ$",
+            f"landing: $p_{wheel} \\geq p_{wheel}^\\circ$, $f_{wheel} > 0$",
+        )
+        style = {"ha": align, "va": "center", "color": colour, "linespacing": 1.6, "size": 11.5}
+        outward = 0.13 * np.sign(y - 0.5)
+        ax.text(edge, y + outward, "\n".join(rules), **style)
+    return ax

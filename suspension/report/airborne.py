@@ -22,6 +22,7 @@ __all__ = [
     "flight_caption",
     "flight_table",
     "models",
+    "modes_caption",
     "order_caption",
     "order_sentence",
     "tilt",
@@ -29,6 +30,24 @@ __all__ = [
 ]
 
 NO_JUMP = 1e-3  # N; a force that returns with less comes back smoothly
+
+
+def modes_caption():
+    """Caption of the state diagram."""
+    text = (
+        "The robot as a hybrid system. Boxes: the four modes, and the forces in each. Arrows: the "
+        "switches of a wheel (blue: rear, orange: front), away from the ground and back to it. "
+        r"$f_i$ is Eq. 5, $p_i$ the compression that a wheel on the ground would give its spring, "
+        r"$p_i^\circ$ the one above the free wheel: 0 if it follows; if it relaxes, $p_i$ at "
+        "lift-off, and falling from there."
+    )
+    alt = (
+        "State diagram with four boxes: both wheels press; the rear wheel in the air, so that N1 "
+        "is zero; the front wheel in the air, so that N2 is zero; both in the air. Arrows lead "
+        "from each box to the two that differ from it in one wheel, and back. A wheel lifts off "
+        "when its f falls to zero and lands when p is at least p-circle and f is positive."
+    )
+    return Caption(text, alt)
 
 
 def flight_table(flights, robot):

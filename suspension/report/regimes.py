@@ -31,6 +31,7 @@ __all__ = [
     "confidence_note",
     "confidence_table",
     "critical_table",
+    "crossings",
     "doubt",
     "landing_data",
     "landing_opening",
@@ -88,6 +89,31 @@ def verdict(edges, lost, beyond=()):
             "than it was measured."
         )
     return " ".join(words)
+
+
+def crossings(edges, lost):
+    """How often the margin crosses zero, and whether going faster ever makes a robot safer."""
+    low, high = (f"{v:g}" for v in (edges[0], edges[-1]))
+    crossed = len(lost) - 1
+    times = {1: "once", 2: "twice"}.get(crossed) or count(crossed, "time")
+    if len(lost) == 1:
+        side = "below" if lost[0] else "above"
+        return (
+            f"With this spring the margin does not cross zero at all from {low} to "
+            f"{high}{SPACE}m/s: it stays {side}."
+        )
+    names = _names(edges)
+    upward = [names[i] for i in range(1, len(lost)) if not lost[i]]
+    if not upward:
+        return (
+            f"With this spring the margin crosses zero {times} from {low} to {high}{SPACE}m/s, "
+            "and only downwards."
+        )
+    return (
+        f"With this spring the margin crosses zero {times} from {low} to {high}{SPACE}m/s, and "
+        f"upwards at {join(upward)}{SPACE}m/s: a little above, the robot is safer than a little "
+        "below."
+    )
 
 
 def _names(edges):

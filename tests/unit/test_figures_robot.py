@@ -11,7 +11,7 @@ from PIL import Image, ImageChops, ImageSequence
 
 from suspension.animation import animate_robot
 from suspension.course import the_robot
-from suspension.figures.robot import RobotDrawing
+from suspension.figures.robot import RobotDrawing, plot_modes
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
@@ -128,3 +128,33 @@ def test_a_bad_argument_is_refused_by_name(name, value):
     arguments = {"W": np.zeros((4, 5)), "T": np.arange(5.0), "v": 1} | {name: value}
     with pytest.raises(ValueError, match=f"^{name} must "):
         animate_robot(**arguments)
+
+
+def test_the_modes_are_the_four_states_of_two_wheels_with_arrows_both_ways():
+    ax = plt.subplots()[1]
+    assert plot_modes(ax) is ax and len(plt.get_fignums()) == 1
+    words = [text.get_text() for text in ax.texts]
+    forces = {
+        tuple(f"$N_{i} = 0" in text or f"quad N_{i} = 0" in text for i in (1, 2))
+        for text in words
+        if "N_1 =" in text
+    }
+    assert forces == {(False, False), (True, False), (False, True), (True, True)}
+    arrows = [text for text in ax.texts if getattr(text, "arrow_patch", None)]
+    ways = [(*np.sign(np.subtract(a.xy, a.xyann)), a.arrow_patch.get_ec()) for a in arrows]
+    assert len(ways) == 8  # each wheel switches off and on, in two places
+    assert [ways.count(way) for way in set(ways)] == [2, 2, 2, 2]
+    for wheel in (1, 2):
+        rules = [text for text in words if f"f_{wheel}$ falls to 0" in text]
+        assert len(rules) == 2 and all(rf"p_{wheel} \geq p_{wheel}^" in text for text in rules)
+
+
+def test_no_word_of_the_modes_is_cut_off_or_covered():
+    with plt.style.context("suspension.figures.report"):
+        ax = plot_modes()
+        ax.figure.canvas.draw()
+        boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if one.overlaps(other)]
+    assert all(
+        ax.figure.bbox.containsx(box.x0) and ax.figure.bbox.containsx(box.x1) for box in boxes
+    )

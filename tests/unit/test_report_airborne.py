@@ -133,3 +133,9 @@ def test_the_orders_are_judged(orders, words):
 
 def test_without_a_landing_there_is_no_order():
     assert "no wheel lands" in plain(part.order_sentence(None, None))
+
+
+def test_the_state_diagram_has_words_for_all_it_shows():
+    text, alt = part.modes_caption()
+    assert not faults(text) and not faults(alt)
+    assert "four boxes" in alt and r"p_i^\circ" in text

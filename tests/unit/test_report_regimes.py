@@ -1,6 +1,7 @@
 """Sentences of Part V and the landing page, for springs and robots of every kind."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -193,4 +194,31 @@ def test_real_data_are_not_called_synthetic():
 def test_each_critical_speed_has_its_strongest_parameter():
     text = part.strongest([0.436, 7.85], {"$k$": [0.1, 1.38], "$c$": [-0.5, 0.3]})
     assert "$c$ at 0.436 m/s" in plain(text) and "$k$ at 7.85 m/s" in plain(text)
+    assert not faults(text)
+
+
+@pytest.mark.slow
+@each_robot
+def test_the_crossings_are_those_of_the_margin(name):
+    edges, lost, _ = regimes(name)
+    text = plain(part.crossings(edges, lost))
+    assert not faults(text)
+    upwards = sum(before and not after for before, after in pairwise(lost))
+    assert ("upwards at" in text) == bool(upwards)
+    if upwards:
+        assert text.split("upwards at ")[1].split(" m/s")[0].count(".") == upwards
+
+
+@pytest.mark.parametrize(
+    ("edges", "lost", "words"),
+    [
+        ([0.1, 30], [False], "does not cross zero at all from 0.1 to 30 m/s: it stays above"),
+        ([0.1, 30], [True], "it stays below"),
+        ([0.1, 2, 30], [False, True], "crosses zero once from 0.1 to 30 m/s, and only down"),
+        ([0.1, 2, 8, 30], [False, True, False], "twice from 0.1 to 30 m/s, and upwards at 8"),
+    ],
+)
+def test_every_way_to_cross_zero_has_its_words(edges, lost, words):
+    text = part.crossings(np.array(edges), lost)
+    assert words in plain(text)
     assert not faults(text)
