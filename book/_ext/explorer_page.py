@@ -7,6 +7,7 @@ page of its own text, and links like ``#explore:v=1.2&dt=0.001`` set the picture
 the page they point to.
 """
 
+import re
 from pathlib import Path
 
 from docutils import nodes
@@ -20,6 +21,7 @@ from suspension.explorer import page_script, page_style
 
 PREFIX = "explore:"
 BOX = "suspension-explorer-box"
+STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 FILES = {"explorer.js": page_script, "explorer.css": page_style}
 
 
@@ -44,15 +46,28 @@ def add_files(app, page, template, context, doctree):
 
 
 class ExplorerDirective(SphinxDirective):
-    """A named explorer of a notebook."""
+    """A named explorer of a notebook.
+
+    The content may be a figure: then the explorer stands above its caption, and the figure's own
+    image is what readers without scripts, and paper, get instead.
+    """
 
     required_arguments = 1
+    has_content = True
 
     def run(self):
-        """Show its HTML, in the classes that a notebook's cell would have."""
+        """Show its HTML, with the content's picture in place of its own."""
         found = find(self.env, self.arguments[0], self.get_location())["data"]
-        node = nodes.raw("", found.get("text/html", self.arguments[0]), format="html")
-        return [node]
+        html = found.get("text/html", self.arguments[0])
+        content = nodes.Element()
+        self.state.nested_parse(self.content, self.content_offset, content)
+        images = list(content.findall(nodes.image))
+        if not images:
+            return [nodes.raw("", html, format="html")]
+        images[0]["classes"].append("se-instead")
+        live = nodes.raw("", STILL.sub("", html), format="html")
+        images[0].parent.insert(images[0].parent.index(images[0]), live)
+        return content.children
 
 
 class ExplorerLinks(SphinxPostTransform):

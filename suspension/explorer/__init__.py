@@ -13,6 +13,7 @@ from pathlib import Path
 import anywidget
 import ipywidgets
 import traitlets
+from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
@@ -82,9 +83,11 @@ class Explorer(anywidget.AnyWidget):
     facts = traitlets.Dict().tag(sync=True)
     tables = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, family, schemes, distance, *, compact=False, presets=(), **settings):
+    def __init__(
+        self, family, schemes, distance, *, compact=False, wide=False, presets=(), **settings
+    ):
         self.family, self.schemes, self.distance = family, tuple(schemes), distance
-        self.compact = compact
+        self.compact, self.wide = compact, wide
         self.sliders = ("v",) if compact else tuple(control.trait for control in CONTROLS)
         robot = family.robot
         # A run may end one step past `distance`, and the front wheel is further ahead.
@@ -167,6 +170,10 @@ class ExplorerBox(ipywidgets.VBox):
     def _repr_mimebundle_(self, **kwargs):
         return super()._repr_mimebundle_(**kwargs) | {"text/html": self.html()}
 
+    def show(self, name):
+        """Display the explorer under a name; ``{explorer} name`` shows it on another page."""
+        display(self, metadata={"scrapbook": {"name": name, "mime_prefix": ""}})
+
     def html(self):
         """The explorer as HTML; `page_script` brings it to life."""
         explorer = self.explorer
@@ -175,7 +182,7 @@ class ExplorerBox(ipywidgets.VBox):
             name: base64.b64encode(table).decode() for name, table in explorer.tables.items()
         }
         text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
-        kind = " se-compact" if explorer.compact else ""
+        kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
         return (
             f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
             f'<div class="se-controls">{native(explorer)}</div>'
@@ -212,6 +219,7 @@ def explore(
     schemes=SCHEMES,
     presets=(),
     compact=False,
+    wide=False,
 ):
     """Sliders for speed, step, spring, damper, bump and scheme, and pictures that follow them.
 
@@ -247,6 +255,8 @@ def explore(
         a scheme as "scheme".
     compact : bool
         Only the robot, the curve over all speeds, and the slider for the speed.
+    wide : bool
+        In a built page, use the window's whole width.
 
     Returns
     -------
@@ -284,6 +294,7 @@ def explore(
         view=_checks.one_of("view", view, VIEWS),
         presets=presets,
         compact=bool(compact),
+        wide=bool(wide),
         **settings,
     )
     if time is None:

@@ -89,6 +89,8 @@ def native(explorer):
             f'aria-label="{escape(name)}, typed"> {escape(control.unit)}</span>'
             f'<input type="range" min="0" max="1" step="any" aria-label="{escape(name)}"></div>'
         )
+    if explorer.compact:
+        return "".join(rows)
     buttons = "".join(
         f'<button type="button" data-index="{i}">{escape(scheme.name)}</button>'
         for i, scheme in enumerate(explorer.schemes)

@@ -28,8 +28,8 @@ MOTIONS = ("linear", "flying")
 VIEWS = ("forces", "stability", "robot", "speeds")
 SPRING_END = 0.0165  # m, the largest compression that was measured (`springs.fit_spring`)
 
-# What every run is judged by: Gauss's methods, stable at any step; for the curve over all speeds the
-# one with two stages.
+# What every run is judged by: Gauss's methods, stable at any step; the one with two stages for the
+# curve over all speeds.
 _root = np.sqrt(3) / 6
 CURVE = Scheme(
     "Gauss-Legendre (4)",

@@ -37,7 +37,7 @@ export const robotPanel = {
   live(pen, scene, { now, motion, ghost }) {
     const { g, w, h, stroke, fill, line, text } = pen, { data, road, robot } = scene;
     const [rear, front] = data.wheels, length = front - rear;
-    const scale = Math.min(w / (length * clamp(w / 230, 2, 2.9)), (h - 50) / (0.62 * length));
+    const scale = Math.min(w / (length * clamp(w / 260, 1.7, 2.3)), (h - 50) / (0.62 * length));
     this.scale = scale;
     const { X } = now, u = new Float64Array(4), spot = new Float64Array(4);
     [rear, front].forEach((offset, i) => road(X + offset, u, i, 0));
@@ -331,7 +331,7 @@ export const stabilityPanel = {
     const { w, h, text } = pen, { scheme, robot, dt } = scene;
     const [left, right, top, bottom] = [26, w - 4, 24, h - 30], size = robot.modes.map(([re, im]) => Math.hypot(re, im));
     const half = held ? this.frame.half : Math.max(3.4, 1.15 * dt * Math.max(...size));
-    this.frame = { half, ...plane(left, right, top, bottom, half, 0.64) };
+    this.frame = { half, ...plane(left, right, top, bottom, half, 0.74) };
     text(`Stability of ${scheme.name}`, 0, 13, { colour: "ink", bold: true });
     const { px, py, scale } = this.frame, { zero } = this.frame;
     for (const im of ticks(-half, half, (bottom - top) / 40)) text(show(im), left - 5, py(im) + 4, { align: "right" });
