@@ -50,10 +50,7 @@ def controls(explorer):
         index=explorer.scheme_index,
         description="Scheme",
     )
-    moment = ipywidgets.FloatSlider(
-        explorer.time, min=0, max=1, step=0.001, readout=False, description="Moment"
-    )
-    joined += [(schemes, "index", "scheme_index"), (moment, "value", "time")]
+    joined.append((schemes, "index", "scheme_index"))
     for widget, name, trait in joined:
         widget.layout.width = "auto"
         ipywidgets.jslink((widget, name), (explorer, trait))

@@ -32,7 +32,10 @@ export function nextValue(key, value, range, steps) {
     const found = way > 0 ? steps.find((step) => step > value * (1 + 1e-9)) : steps.findLast((step) => step < value * (1 - 1e-9));
     return found ?? (way > 0 ? high : low);
   }
-  const next = scale.toValue(clamp(scale.toPlace(value) + way * STRIDE, 0, 1));
+  const place = scale.toPlace(value) + way * STRIDE;
+  if (place <= 0) return low;
+  if (place >= 1) return high;
+  const next = scale.toValue(place);
   const digits = clamp(Number(next.toPrecision(3)), low, high);
   return digits === value ? clamp(next, low, high) : digits;
 }
