@@ -38,7 +38,7 @@ export function render(model, el) {
   const root = make(el, "div", facts.compact ? "suspension-explorer se-small" : "suspension-explorer");
   const box = root.closest(".suspension-explorer-box") ?? root;
   const status = make(root, "div", "se-status"), headline = make(status, "strong", "se-headline");
-  const details = make(status, "p", "se-details"), spoken = make(root, "div", "se-spoken", { role: "status" });
+  const spoken = make(root, "div", "se-spoken", { role: "status" });
   const stage = make(root, "div", "se-panels", { "data-view": model.get("view") });
   const panels = facts.panels.map((name) => {
     const canvas = make(stage, "canvas", `se-${name}`, { role: "img" });
@@ -48,6 +48,7 @@ export function render(model, el) {
   const bar = make(root, "div", "se-bar"), play = button(bar, "", { class: "se-play" });
   const moment = make(bar, "input", "se-moment", { type: "range", min: 0, max: 1, step: "any", "aria-label": "Moment" });
   const clock = make(bar, "span", "se-clock"), tools = make(root, "div", "se-tools");
+  const details = make(root, "p", "se-details");
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   let scene = null, pinned = null, held = null, frame = 0, timer = 0, playing = null, colours = null;
   let stale = true, redraw = true;
@@ -326,6 +327,10 @@ export function render(model, el) {
       speeds: [...curve.speeds], least: curve.least.map((N) => [...N]), critical: curve.critical,
       events: flight.events, highest: flight.gaps.map((gap) => gap.subarray(0, flight.J + 1).reduce((a, b) => Math.max(a, b), 0)), flightStep: flight.dt,
     };
+  };
+  root.modesAt = () => { // where the modes are drawn, in fractions of the panel, for tests that drag
+    const { frame, size: [w, h] } = panels.find(({ name }) => name === "stability");
+    return compute().robot.modes.map(([re, im]) => [frame.px(re * scene.dt) / w, frame.py(im * scene.dt) / h]);
   };
   const destroy = () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(`change:${name}`, listener);

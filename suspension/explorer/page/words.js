@@ -49,13 +49,14 @@ function describeRun(scene) {
     tone = "doubt";
     const [a, b] = [run.verdict.lost, exact.lost];
     const fault = !a ? "misses a loss of contact" : b ? "finds another loss of contact" : "finds a loss of contact that is none";
-    headline = `This run ${fault}. Exactly: ${outcome(scene, exact)}. It says: ${outcome(scene, run.verdict)}.`;
+    headline = `This run ${fault}. Exactly: ${outcome(scene, exact)}.`;
+    details.push(`The run says: ${outcome(scene, run.verdict)}.`);
   } else {
     tone = run.verdict.lost ? "lost" : "kept";
     headline = `${capital(outcome(scene, run.verdict))}.`;
   }
   if (stable) {
-    if (run.verdict.lost) details.push(`${capital(least(scene, run.verdict))}, in a model whose ground can pull.`);
+    if (run.verdict.lost && tone === "lost") details.push(`${capital(least(scene, run.verdict))}, in a model whose ground can pull.`);
     details.push(`${method} is stable: the largest ${R}.`);
     details.push(run.error < CLOSE
       ? `Its forces are exact to ${unit(CLOSE, "N", 1)}.`
