@@ -4,9 +4,9 @@
 import { apply, characteristic, combine, divide, eliminate, evaluate, multiply, roots, solve, zeros } from "./linear.js";
 
 const TOLERANCE = 1e-12; // of |R| <= 1 and of whole numbers of steps, as in Python
-const FINEST = 0.00025; // s, the longest step of a flight
-const CELLS = 600; // steps of the curve over all speeds, each of the same length
-const SPEEDS = 160;
+const FINEST = 0.0004; // s, the longest step of a flight
+const CELLS = 512; // steps of the curve over all speeds, each of the same length
+const SPEEDS = 128;
 const MOST = 5; // changes within one step
 
 /** A table that Python packed as little-endian doubles. */
@@ -358,84 +358,123 @@ function zero(f, a, b, fa, fb) {
 export function fly(data, robot, road, settings, memory) {
   const { v } = settings, scale = shortestScale(data, robot, settings), end = data.distance / v;
   const dt = Math.min(FINEST, scale.road / 16, 0.1 * scale.modes), J = countSteps(end, dt);
-  const scheme = data.reference, u = new Float64Array(4), { C, D, P, S, e, Cp, Dp, equilibrium } = robot;
-  const Cf = flatten(C), Df = flatten(D), Cg = flatten(Cp), Dg = flatten(Dp);
-  const systems = [0, 1, 2, 3].map((set) => {
-    const switched = P.map((row) => row.map((value, i) => (set & (1 << i) ? value : 0)));
-    return { A: combine([1, S], [1, multiply(switched, C)]), B: multiply(switched, D) };
-  });
-  const prepare = (set, h) => {
-    const { R, gains } = oneStep(scheme, systems[set].A, h);
-    const total = combine(...gains.map(([, G]) => [1, G]));
-    return {
-      R: flatten(R), weight: apply(total, e), places: gains.map(([c]) => c * h),
-      M: gains.map(([, G]) => flatten(multiply(G, systems[set].B))),
-    };
-  };
-  const feel = (t) => {
-    const X = v * t;
-    road(X + data.wheels[0], u, 0, v);
-    road(X + data.wheels[1], u, 1, v);
-  };
-  const w = Float64Array.from(equilibrium), x = new Float64Array(4);
-  const advance = ({ R, weight, places, M }, t) => {
-    for (let i = 0; i < 4; i++) {
-      x[i] = weight[i] + R[4 * i] * w[0] + R[4 * i + 1] * w[1] + R[4 * i + 2] * w[2] + R[4 * i + 3] * w[3];
-    }
-    for (let q = 0; q < places.length; q++) {
-      feel(t + places[q]);
-      if (u[0] === 0 && u[1] === 0 && u[2] === 0 && u[3] === 0) continue;
-      for (let i = 0; i < 4; i++) x[i] += force(M[q], i, u, 0);
-    }
-    w.set(x);
-  };
-  /** Compressions and Eq. 5 of both wheels: [p, p, f, f]. */
-  const springs = (t) => {
-    feel(t);
-    const row = (M, i) => M[4 * i] * w[0] + M[4 * i + 1] * w[1] + M[4 * i + 2] * w[2] + M[4 * i + 3] * w[3];
-    return [0, 1].map((i) => row(Cg, i) + force(Dg, i, u, 0)).concat([0, 1].map((i) => row(Cf, i) + force(Df, i, u, 0)));
-  };
-  const press = (s) => (s[0] >= 0 && s[2] > 0 ? 1 : 0) | (s[1] >= 0 && s[3] > 0 ? 2 : 0);
-
-  const W = [0, 1, 2, 3].map((i) => memory(`flying W${i}`, J + 1)), N = [0, 1].map((i) => memory(`flying N${i}`, J + 1));
+  const motion = makeMotion(data, robot, road, v), { w, springs, press, advance } = motion;
+  const full = [0, 1, 2, 3].map((set) => motion.prepare(set, dt));
+  const W = [0, 1, 2, 3].map((i) => memory(`flying W${i}`, J + 1));
+  const N = [0, 1].map((i) => memory(`flying N${i}`, J + 1));
   const gaps = [0, 1].map((i) => memory(`flying gap${i}`, J + 1)), events = [];
-  const full = [0, 1, 2, 3].map((set) => prepare(set, dt));
-  let before = springs(0), set = press(before);
+  const [W0, W1, W2, W3] = W, [N0, N1] = N, [gap0, gap1] = gaps;
+  let before = new Float64Array(4), after = new Float64Array(4);
+  const saved = new Float64Array(4);
+  springs(0, before);
+  let set = press(before);
   for (let n = 0; ; n++) {
-    for (let i = 0; i < 4; i++) W[i][n] = w[i];
-    for (let i = 0; i < 2; i++) {
-      N[i][n] = set & (1 << i) ? before[2 + i] : 0;
-      gaps[i][n] = set & (1 << i) ? 0 : Math.max(-before[i], 0);
-    }
+    W0[n] = w[0];
+    W1[n] = w[1];
+    W2[n] = w[2];
+    W3[n] = w[3];
+    N0[n] = set & 1 ? before[2] : 0;
+    N1[n] = set & 2 ? before[3] : 0;
+    gap0[n] = set & 1 || before[0] > 0 ? 0 : -before[0];
+    gap1[n] = set & 2 || before[1] > 0 ? 0 : -before[1];
     if (n === J) break;
-    let t = n * dt, left = dt;
-    for (let tries = 0; ; tries++) {
-      const saved = Float64Array.from(w);
-      advance(tries === 0 ? full[set] : prepare(set, left), t);
-      const after = springs(t + left), next = press(after);
-      if (next === set || tries === MOST) {
-        before = after;
-        set = next;
-        break;
-      }
-      const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(before, after, i) : Infinity));
-      const part = Math.min(Math.max(Math.min(...parts), 1e-6), 1);
-      const changed = (parts[0] <= part + 1e-9 ? 1 : 0) | (parts[1] <= part + 1e-9 ? 2 : 0);
+    saved.set(w);
+    advance(full[set], n * dt);
+    springs((n + 1) * dt, after);
+    if (press(after) === set) {
+      [before, after] = [after, before];
+    } else {
       w.set(saved);
-      advance(prepare(set, part * left), t);
-      t += part * left;
-      left -= part * left;
-      before = springs(t);
-      for (const i of [0, 1]) {
-        if (!(changed & (1 << i))) continue;
-        const lands = !(set & (1 << i));
-        events.push({ wheel: i, kind: lands ? "landing" : "lift-off", t, X: v * t, force: lands ? Math.max(before[2 + i], 0) : 0 });
-      }
-      set ^= changed;
-      if (left <= 0) break;
+      set = part(motion, n * dt, dt, set, before, after, events);
+      springs((n + 1) * dt, before);
     }
   }
   return { W, N, gaps, J, dt, v, events, airtime: airtime(events, end) };
+}
+
+/**
+ * One step in which the set changes: up to each change with the old set, then on with the new one.
+ * The changes are appended to the events; the set at the end comes back.
+ */
+function part({ w, springs, press, advance, prepare, v }, start, dt, set, before, after, events) {
+  const saved = new Float64Array(4);
+  let t = start, left = dt, [first, last] = [before.slice(), after.slice()];
+  for (let tries = 0; tries < MOST && left > 0; tries++) {
+    const next = press(last);
+    if (next === set) return set;
+    const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(first, last, i) : Infinity));
+    const share = Math.min(Math.max(Math.min(...parts), 1e-6), 1);
+    if (tries) w.set(saved); // back to the last change
+    advance(prepare(set, share * left), t);
+    t += share * left;
+    left = share < 1 ? (1 - share) * left : 0;
+    springs(t, first);
+    for (const i of [0, 1]) {
+      if (parts[i] > share + 1e-9) continue;
+      set ^= 1 << i;
+      const lands = Boolean(set & (1 << i)), force = lands ? Math.max(first[2 + i], 0) : 0;
+      events.push({ wheel: i, kind: lands ? "landing" : "lift-off", t, X: v * t, force });
+    }
+    saved.set(w);
+    if (left > 0) {
+      advance(prepare(set, left), t);
+      springs(t + left, last);
+    }
+  }
+  return left > 0 ? press(last) : set;
+}
+
+/** The motion of a robot at a speed: its state w, and how it goes on with each set of wheels. */
+function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
+  const w = Float64Array.from(equilibrium), u = new Float64Array(4), [rear, front] = data.wheels;
+  const systems = [0, 1, 2, 3].map((set) => {
+    const pressing = P.map((row) => row.map((value, i) => (set & (1 << i) ? value : 0)));
+    return { A: combine([1, S], [1, multiply(pressing, C)]), B: multiply(pressing, D) };
+  });
+  const rows = [Cp[0], Cp[1], C[0], C[1]], columns = [Dp[0], Dp[1], D[0], D[1]];
+  const M = flatten(rows), L = flatten(columns);
+  const feel = (t) => {
+    road(v * t + rear, u, 0, v);
+    road(v * t + front, u, 1, v);
+    return u[0] !== 0 || u[1] !== 0 || u[2] !== 0 || u[3] !== 0;
+  };
+  return {
+    w,
+    v,
+    prepare(set, h) {
+      const { R, gains } = oneStep(data.reference, systems[set].A, h);
+      const total = combine(...gains.map(([, G]) => [1, G]));
+      const forcing = gains.map(([, G]) => flatten(multiply(G, systems[set].B)));
+      return { R: flatten(R), weight: apply(total, e), places: gains.map(([c]) => c * h), forcing };
+    },
+    advance({ R, weight, places, forcing }, t) {
+      const w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
+      let x0 = weight[0] + R[0] * w0 + R[1] * w1 + R[2] * w2 + R[3] * w3;
+      let x1 = weight[1] + R[4] * w0 + R[5] * w1 + R[6] * w2 + R[7] * w3;
+      let x2 = weight[2] + R[8] * w0 + R[9] * w1 + R[10] * w2 + R[11] * w3;
+      let x3 = weight[3] + R[12] * w0 + R[13] * w1 + R[14] * w2 + R[15] * w3;
+      for (let q = 0; q < places.length; q++) {
+        if (!feel(t + places[q])) continue;
+        const G = forcing[q];
+        x0 += force(G, 0, u, 0);
+        x1 += force(G, 1, u, 0);
+        x2 += force(G, 2, u, 0);
+        x3 += force(G, 3, u, 0);
+      }
+      w[0] = x0;
+      w[1] = x1;
+      w[2] = x2;
+      w[3] = x3;
+    },
+    /** Compressions and Eq. 5 of both wheels: [p, p, f, f]. */
+    springs(t, found) {
+      const level = !feel(t);
+      for (let i = 0; i < 4; i++) {
+        found[i] = force(M, i, w, 0) + (level ? 0 : force(L, i, u, 0));
+      }
+    },
+    press: (s) => (s[0] >= 0 && s[2] > 0 ? 1 : 0) | (s[1] >= 0 && s[3] > 0 ? 2 : 0),
+  };
 }
 
 /**

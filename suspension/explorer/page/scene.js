@@ -25,11 +25,12 @@ export function makeScenes(data) {
     const road = once("road", [height, sigma], () => makeRoad(data.shape, settings));
     const here = [k, c, height, sigma], there = [...here, v];
     const curve = once("curve", here, () => makeCurve(data, robot, road, settings));
-    const flight = once("flight", there, () => fly(data, robot, road, settings, spaces.flight));
     const truth = once("truth", [...there, dt], () => {
       const found = reference(data, robot, road, settings, spaces.truth);
       return { ...found, verdict: judgeExactly(found), beyond: beyond(data, robot, road, found) };
     });
+    const flight = once("flight", [...there, truth.verdict.lost ? "" : truth.J], () =>
+      truth.verdict.lost ? fly(data, robot, road, settings, spaces.flight) : grounded(truth));
     const run = once("run", [...there, dt, scheme_index], () => {
       const found = simulate(data, robot, road, scheme, v, dt, J, spaces.run);
       return found && { ...found, verdict: judge(found), error: difference(found, truth) };
@@ -38,6 +39,11 @@ export function makeScenes(data) {
     const stable = run !== null && growths.every((size) => size <= STABLE);
     return { data, settings, v, dt, end, J, scheme, robot, road, curve, flight, truth, run, growths, stable };
   };
+}
+
+/** A flight that never leaves the ground: the exact run. */
+function grounded(truth) {
+  return { ...truth, gaps: [0, 1].map(() => new Float64Array(truth.J + 1)), events: [], airtime: [0, 0] };
 }
 
 /** When a spring is compressed further than it was measured: pairs of times. */
