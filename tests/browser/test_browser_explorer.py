@@ -402,6 +402,21 @@ def test_the_pictures_can_be_grabbed(visit, pages):
     assert 0.0005 < shown(tab)[0]["dt"] < 0.049
 
 
+def test_the_map_over_speed_and_stiffness_sets_both(visit, pages):
+    tab = visit(f"{pages.as_uri()}/bump.html")
+    curve = pictures(tab)["se-speeds"]
+    tab.get_by_role("button", name="Map over v and k").click()
+    tab.wait_for_timeout(1500)
+    filled = pictures(tab)["se-speeds"]
+    assert filled != curve
+    drag(tab, "speeds", (0.5, 0.5), (0.8, 0.3))
+    page = shown(tab)[0]
+    assert 5 < page["v"] < 15 and 1000 < page["k"] < 2200
+    assert (page["exact"]["lost"] is not None) == (page["exact"]["least"] <= 0)
+    tab.get_by_role("button", name="Map over v and k").click()
+    assert pictures(tab)["se-speeds"] != filled
+
+
 def test_presets_pins_and_reset(visit, pages):
     tab = visit(f"{pages.as_uri()}/bump.html")
     start = shown(tab)[0], pictures(tab)

@@ -7,8 +7,19 @@ import { readHash, readNumber, writeHash } from "../page/state.js";
 import { pythonOf, tableOf } from "../page/take.js";
 
 const NUMBERS = {
-  "7.5": 7.5, "0,5": 0.5, " 1 200 ": 1200, "−3": -3, "1e-3": 1e-3, ".25": 0.25, "5.": 5,
-  "": null, a: null, "1,2,3": null, "1e999": null, "--1": null, "0x10": null,
+  7.5: 7.5,
+  "0,5": 0.5,
+  " 1 200 ": 1200,
+  "−3": -3,
+  "1e-3": 1e-3,
+  ".25": 0.25,
+  "5.": 5,
+  "": null,
+  a: null,
+  "1,2,3": null,
+  "1e999": null,
+  "--1": null,
+  "0x10": null,
 };
 
 test("a number is read with a point or a comma, and nothing else is one", () => {
@@ -37,17 +48,38 @@ test("numbers have a true minus, few digits and powers of ten", () => {
 });
 
 test("an axis has round numbers", () => {
-  assert.deepEqual(ticks(0, 1, 5).map((x) => plain(x)), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+  assert.deepEqual(
+    ticks(0, 1, 5).map((x) => plain(x)),
+    ["0", "0.2", "0.4", "0.6", "0.8", "1"],
+  );
 });
 
 test("gaps in the lines of Python are filled exactly", () => {
-  const python = { text: "f({k2}, {v}, {scheme})", flight: "fly({v})", schemes: ["RK4"], gaps: { k2: ["k", 1.5] } };
+  const python = {
+    text: "f({k2}, {v}, {scheme})",
+    flight: "fly({v})",
+    schemes: ["RK4"],
+    gaps: { k2: ["k", 1.5] },
+  };
   assert.equal(pythonOf({ python }, { k: 700, v: 7.5 }, 0, "linear"), "f(1050, 7.5, RK4)");
   assert.equal(pythonOf({ python }, { k: 700, v: 7.5 }, 0, "flying"), "f(1050, 7.5, RK4)\nfly(7.5)");
 });
 
 test("the table has a line for each sample", () => {
-  const run = { W: [[1, 2], [0, 0], [0, 0], [0, 0]], N: [[7, 7], [6, 6]], J: 1, dt: 0.5 };
+  const run = {
+    W: [
+      [1, 2],
+      [0, 0],
+      [0, 0],
+      [0, 0],
+    ],
+    N: [
+      [7, 7],
+      [6, 6],
+    ],
+    J: 1,
+    dt: 0.5,
+  };
   const lines = tableOf({ run, v: 2 }, "linear").trim().split("\n");
   assert.deepEqual(lines.slice(1), ["0,0,1,0,0,0,7,6", "0.5,1,2,0,0,0,7,6"]);
   assert.equal(lines[0].split(",").length, 8);

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from helpers import PARITY, largest_difference
-from node import ask_page, random_settings, run_in_node, run_own_tests, unpack
+from helpers import PARITY, ROOT, largest_difference
+from node import ask_page, node, random_settings, run_in_node, run_own_tests, unpack
 
 from suspension.contact import critical_speeds, margin
 from suspension.explorer import SCHEMES, Explorer, explore
@@ -187,3 +187,10 @@ def test_the_bundle_is_the_modules_joined(tmp_path):
 
 def test_the_modules_own_tests_pass(tmp_path):
     print(run_own_tests(tmp_path))
+
+
+def test_the_modules_are_formatted_and_have_no_lint():
+    biome = ROOT / "book" / "npm" / "node_modules" / "@biomejs" / "biome" / "bin" / "biome"
+    if not biome.exists():
+        pytest.skip("no Biome: 'npm ci' in book/npm, or 'make book', installs it")
+    print(node(ROOT, biome, "ci", "--error-on-warnings"))

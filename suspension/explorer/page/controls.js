@@ -23,13 +23,17 @@ export function round(value, [low, high], own, scale) {
 
 /** The next value up or down for a key, or null: steps go from one round one to the next. */
 export function nextValue(key, value, range, steps) {
-  const scale = makeScale(range), [low, high] = range;
+  const scale = makeScale(range),
+    [low, high] = range;
   const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 8, PageDown: -8 }[key];
   if (key === "Home") return low;
   if (key === "End") return high;
   if (!way) return null;
   if (steps) {
-    const found = way > 0 ? steps.find((step) => step > value * (1 + 1e-9)) : steps.findLast((step) => step < value * (1 - 1e-9));
+    const found =
+      way > 0
+        ? steps.find((step) => step > value * (1 + 1e-9))
+        : steps.findLast((step) => step < value * (1 - 1e-9));
     return found ?? (way > 0 ? high : low);
   }
   const place = scale.toPlace(value) + way * STRIDE;
@@ -45,11 +49,14 @@ export function bindControls(box, model) {
   const facts = model.get("facts");
   for (const control of box.querySelectorAll(".se-control")) bindSlider(control, model, facts);
   for (const choice of box.querySelectorAll(".se-choice[data-trait]")) {
-    const { trait } = choice.dataset, buttons = [...choice.querySelectorAll("button")];
+    const { trait } = choice.dataset,
+      buttons = [...choice.querySelectorAll("button")];
     const update = () => {
-      for (const button of buttons) button.setAttribute("aria-pressed", String(Number(button.dataset.index) === model.get(trait)));
+      for (const button of buttons)
+        button.setAttribute("aria-pressed", String(Number(button.dataset.index) === model.get(trait)));
     };
-    for (const button of buttons) button.addEventListener("click", () => set(model, trait, Number(button.dataset.index)));
+    for (const button of buttons)
+      button.addEventListener("click", () => set(model, trait, Number(button.dataset.index)));
     model.on(`change:${trait}`, update);
     update();
   }
@@ -61,9 +68,14 @@ function set(model, trait, value) {
 }
 
 function bindSlider(control, model, facts) {
-  const { trait } = control.dataset, range = facts.ranges[trait], scale = makeScale(range);
-  const slider = control.querySelector("input[type=range]"), number = control.querySelector("input[type=text]");
-  const units = UNITS[trait] ?? 1, own = facts.own[trait], unit = number.parentElement.textContent.trim();
+  const { trait } = control.dataset,
+    range = facts.ranges[trait],
+    scale = makeScale(range);
+  const slider = control.querySelector("input[type=range]"),
+    number = control.querySelector("input[type=text]");
+  const units = UNITS[trait] ?? 1,
+    own = facts.own[trait],
+    unit = number.parentElement.textContent.trim();
   const error = control.appendChild(document.createElement("span"));
   error.className = "se-error";
   error.setAttribute("role", "alert");
@@ -73,7 +85,8 @@ function bindSlider(control, model, facts) {
     number.toggleAttribute("aria-invalid", Boolean(text));
   };
   const update = () => {
-    const value = model.get(trait), shown = plain(value * units, 12);
+    const value = model.get(trait),
+      shown = plain(value * units, 12);
     slider.value = scale.toPlace(value);
     slider.setAttribute("aria-valuetext", `${shown} ${unit}${value === own ? ", the robot's own" : ""}`);
     if (document.activeElement !== number) {
@@ -81,7 +94,9 @@ function bindSlider(control, model, facts) {
       complain("");
     }
   };
-  slider.addEventListener("input", () => set(model, trait, round(scale.toValue(Number(slider.value)), range, own, scale)));
+  slider.addEventListener("input", () =>
+    set(model, trait, round(scale.toValue(Number(slider.value)), range, own, scale)),
+  );
   slider.addEventListener("keydown", (event) => {
     const next = nextValue(event.key, model.get(trait), range, trait === "dt" ? facts.dts : null);
     if (next === null) return;
@@ -89,7 +104,8 @@ function bindSlider(control, model, facts) {
     set(model, trait, next);
   });
   const take = () => {
-    const typed = readNumber(number.value), [low, high] = range;
+    const typed = readNumber(number.value),
+      [low, high] = range;
     if (typed === null) complain(`A number, please: ${plain(low * units)} to ${plain(high * units)} ${unit}`);
     else if (typed / units < low * (1 - 1e-12) || typed / units > high * (1 + 1e-12)) {
       complain(`Out of range: ${plain(low * units)} to ${plain(high * units)} ${unit}`);

@@ -6,7 +6,11 @@ export function zeros(rows, columns) {
   return M;
 }
 
-export const identity = (n) => zeros(n, n).map((row, i) => ((row[i] = 1), row));
+export function identity(n) {
+  const M = zeros(n, n);
+  for (let i = 0; i < n; i++) M[i][i] = 1;
+  return M;
+}
 
 /** sum of factor * matrix over the pairs. */
 export function combine(...pairs) {
@@ -18,7 +22,8 @@ export function combine(...pairs) {
 }
 
 export function multiply(A, B) {
-  const columns = B[0].length, product = zeros(A.length, columns);
+  const columns = B[0].length,
+    product = zeros(A.length, columns);
   for (let i = 0; i < A.length; i++) {
     for (let k = 0; k < B.length; k++) {
       const a = A[i][k];
@@ -66,7 +71,8 @@ export function eliminate(M, n, width) {
 
 /** Solve A x = b; null if A is singular. */
 export function solve(A, b) {
-  const n = A.length, M = new Float64Array(n * (n + 1));
+  const n = A.length,
+    M = new Float64Array(n * (n + 1));
   A.forEach((row, i) => {
     M.set(row, i * (n + 1));
     M[i * (n + 1) + n] = b[i];
@@ -76,7 +82,8 @@ export function solve(A, b) {
 
 /** Coefficients of det(z I - A), the lowest power first (Faddeev and LeVerrier). */
 export function characteristic(A) {
-  const n = A.length, coefficients = new Float64Array(n + 1);
+  const n = A.length,
+    coefficients = new Float64Array(n + 1);
   coefficients[n] = 1;
   let X = identity(n);
   for (let j = 1; j <= n; j++) {
@@ -91,7 +98,8 @@ export function characteristic(A) {
 
 /** A polynomial, lowest power first, at a complex point [re, im]. */
 export function evaluate(coefficients, [re, im]) {
-  let x = 0, y = 0;
+  let x = 0,
+    y = 0;
   for (let j = coefficients.length - 1; j >= 0; j--) {
     [x, y] = [x * re - y * im + coefficients[j], x * im + y * re];
   }

@@ -1,7 +1,18 @@
 // From what Python handed over to what is shown: the matrices at the sliders' settings, runs, the
 // curve over all speeds. Everything is linear algebra with given numbers; nothing here is physics.
 
-import { apply, characteristic, combine, divide, eliminate, evaluate, multiply, roots, solve, zeros } from "./linear.js";
+import {
+  apply,
+  characteristic,
+  combine,
+  divide,
+  eliminate,
+  evaluate,
+  multiply,
+  roots,
+  solve,
+  zeros,
+} from "./linear.js";
 
 const TOLERANCE = 1e-12; // of |R| <= 1 and of whole numbers of steps, as in Python
 const FINEST = 0.0004; // s, the longest step of a flight
@@ -22,7 +33,8 @@ export function readModel(facts, tables) {
  * and v dH/dx to out[i + 2].
  */
 export function makeRoad({ centre, start, cell, table }, { height, sigma }) {
-  const size = 10, last = table.length / size - 1;
+  const size = 10,
+    last = table.length / size - 1;
   const flat = new Uint8Array(last + 1);
   for (let n = 0; n <= last; n++) {
     flat[n] = table.subarray(size * n, size * (n + 1)).every((c) => c === 0) ? 1 : 0;
@@ -35,7 +47,8 @@ export function makeRoad({ centre, start, cell, table }, { height, sigma }) {
       return;
     }
     const s = Math.min(Math.max(2 * (at - n) - 1, -1), 1);
-    let H = 0, slope = 0; // Horner's rule for both
+    let H = 0,
+      slope = 0; // Horner's rule for both
     for (let j = size * (n + 1) - 1; j >= size * n; j--) {
       slope = slope * s + H;
       H = H * s + table[j];
@@ -48,9 +61,14 @@ export function makeRoad({ centre, start, cell, table }, { height, sigma }) {
 /** The matrices of the robot at a stiffness and a damping, and its modes. */
 export function makeRobot({ model }, { k, c }) {
   const at = (parts) => combine([1, parts["1"]], [k, parts.k], [c, parts.c]);
-  const C = at(model.C), D = at(model.D), { S, P, e, Cp, Dp } = model;
+  const C = at(model.C),
+    D = at(model.D),
+    { S, P, e, Cp, Dp } = model;
   const A = combine([1, S], [1, multiply(P, C)]);
-  const equilibrium = solve(A, e.map((value) => -value)).map((value) => value + 0);
+  const equilibrium = solve(
+    A,
+    e.map((value) => -value),
+  ).map((value) => value + 0);
   const modes = roots(characteristic(A));
   return { A, C, D, S, P, e, Cp, Dp, equilibrium, weight: apply(C, equilibrium), modes };
 }
@@ -61,10 +79,13 @@ export function makeRobot({ model }, { k, c }) {
  * solved for.
  */
 export function oneStep({ a, b, c }, A, dt) {
-  const s = b.length, n = A.length, m = s * n;
+  const s = b.length,
+    n = A.length,
+    m = s * n;
   // All stages at once, transposed: (I - dt a kron A)^T G^T = dt (b^T kron I)^T, the right-hand
   // side in the columns behind the matrix.
-  const M = new Float64Array(m * (m + n)), width = m + n;
+  const M = new Float64Array(m * (m + n)),
+    width = m + n;
   for (let i = 0; i < s; i++) {
     for (let p = 0; p < n; p++) {
       const row = (i * n + p) * width;
@@ -76,7 +97,8 @@ export function oneStep({ a, b, c }, A, dt) {
     }
   }
   if (!eliminate(M, m, width)) return null;
-  const found = new Map(), total = zeros(n, n);
+  const found = new Map(),
+    total = zeros(n, n);
   for (let i = 0; i < s; i++) {
     if (!found.has(c[i])) found.set(c[i], zeros(n, n));
     const gain = found.get(c[i]);
@@ -101,7 +123,8 @@ export function growth({ P, Q }, z) {
 
 /** Number of steps to cover a time: rounded up, but forgiving roundoff, as in Python. */
 export function countSteps(tfinal, dt) {
-  const J = tfinal / dt, whole = Math.round(J);
+  const J = tfinal / dt,
+    whole = Math.round(J);
   return Math.max(Math.abs(J - whole) <= TOLERANCE * J ? whole : Math.ceil(J), 1);
 }
 
@@ -127,7 +150,8 @@ const force = (D, i, u, j) =>
 
 /** The road's part of both forces at times (n + shift) dt, n = 0 .. J. */
 function roadForce(data, road, D, v, dt, shift, J, f) {
-  const [rear, front] = data.wheels, u = new Float64Array(4);
+  const [rear, front] = data.wheels,
+    u = new Float64Array(4);
   for (let n = 0; n <= J; n++) {
     const X = v * (n * dt + shift * dt);
     road(X + rear, u, 0, v);
@@ -146,16 +170,26 @@ function roadForce(data, road, D, v, dt, shift, J, f) {
 export function simulate(data, robot, road, scheme, v, dt, J, memory) {
   const step = oneStep(scheme, robot.A, dt);
   if (!step) return null;
-  const size = J + 1, D = flatten(robot.D), C = flatten(robot.C), R = flatten(step.R);
+  const size = J + 1,
+    D = flatten(robot.D),
+    C = flatten(robot.C),
+    R = flatten(step.R);
   const ends = roadForce(data, road, D, v, dt, 0, J, memory("ends", 2 * size));
   const stages = step.gains.map(([c, G]) => ({
     M: flatten(multiply(G, robot.P)), // 4 by 2
     f: c === 0 || c === 1 ? ends : roadForce(data, road, D, v, dt, c, J, memory(`at ${c}`, 2 * size)),
     ahead: c === 1 ? 2 : 0,
   }));
-  const W = [0, 1, 2, 3].map((i) => memory(`W${i}`, size)), N = [0, 1].map((i) => memory(`N${i}`, size));
-  const [W0, W1, W2, W3] = W, [N0, N1] = N, [r0, r1] = robot.weight, [q0, q1, q2, q3] = robot.equilibrium;
-  let d0 = 0, d1 = 0, d2 = 0, d3 = 0;
+  const W = [0, 1, 2, 3].map((i) => memory(`W${i}`, size)),
+    N = [0, 1].map((i) => memory(`N${i}`, size));
+  const [W0, W1, W2, W3] = W,
+    [N0, N1] = N,
+    [r0, r1] = robot.weight,
+    [q0, q1, q2, q3] = robot.equilibrium;
+  let d0 = 0,
+    d1 = 0,
+    d2 = 0,
+    d3 = 0;
   for (let n = 0; ; n++) {
     W0[n] = q0 + d0;
     W1[n] = q1 + d1;
@@ -169,7 +203,9 @@ export function simulate(data, robot, road, scheme, v, dt, J, memory) {
     let x2 = R[8] * d0 + R[9] * d1 + R[10] * d2 + R[11] * d3;
     let x3 = R[12] * d0 + R[13] * d1 + R[14] * d2 + R[15] * d3;
     for (let q = 0; q < stages.length; q++) {
-      const { M, f, ahead } = stages[q], f0 = f[2 * n + ahead], f1 = f[2 * n + ahead + 1];
+      const { M, f, ahead } = stages[q],
+        f0 = f[2 * n + ahead],
+        f1 = f[2 * n + ahead + 1];
       if (f0 === 0 && f1 === 0) continue;
       x0 += M[0] * f0 + M[1] * f1;
       x1 += M[2] * f0 + M[3] * f1;
@@ -196,10 +232,13 @@ function shortestScale(data, robot, settings) {
  * every `each`-th of the other.
  */
 export function reference(data, robot, road, settings, memory) {
-  const { v, dt } = settings, scale = shortestScale(data, robot, settings);
+  const { v, dt } = settings,
+    scale = shortestScale(data, robot, settings);
   const wanted = Math.min(scale.road / 16, 0.1 * scale.modes);
-  const each = Math.max(1, Math.ceil(dt / wanted - 1e-9)), every = Math.max(1, Math.floor(wanted / dt));
-  const H = each > 1 ? dt / each : dt * every, J = countSteps(data.distance / v, H);
+  const each = Math.max(1, Math.ceil(dt / wanted - 1e-9)),
+    every = Math.max(1, Math.floor(wanted / dt));
+  const H = each > 1 ? dt / each : dt * every,
+    J = countSteps(data.distance / v, H);
   return { ...simulate(data, robot, road, data.reference, v, H, J, memory), each, every };
 }
 
@@ -207,7 +246,8 @@ export function reference(data, robot, road, settings, memory) {
 export function difference(run, truth) {
   let most = 0;
   for (const i of [0, 1]) {
-    const a = run.N[i], b = truth.N[i];
+    const a = run.N[i],
+      b = truth.N[i];
     for (let n = 0, m = 0; n <= run.J && m <= truth.J; n += truth.every, m += truth.each) {
       most = Math.max(most, Math.abs(a[n] - b[m]));
     }
@@ -217,7 +257,11 @@ export function difference(run, truth) {
 
 /** First loss, least and largest force of a run as it is sampled, up to a time. */
 export function judge({ N, dt, J }, end = Infinity) {
-  let least = Infinity, most = -Infinity, worst = 0, wheel = 0, lost = null;
+  let least = Infinity,
+    most = -Infinity,
+    worst = 0,
+    wheel = 0,
+    lost = null;
   const last = Math.min(J, Math.floor(end / dt + 1e-9));
   for (let n = 0; n <= last; n++) {
     const low = N[1][n] < N[0][n] ? 1 : 0;
@@ -238,7 +282,8 @@ function bottom(a, b, c) {
 
 /** As `judge`, between the samples too: for the reference, whose samples lie close. */
 export function judgeExactly(run) {
-  const { N, dt, J } = run, found = judge(run);
+  const { N, dt, J } = run,
+    found = judge(run);
   for (const i of [0, 1]) {
     for (let n = 1; n < J; n++) {
       const x = N[i][n];
@@ -249,8 +294,10 @@ export function judgeExactly(run) {
       if (value <= 0 && x > 0 && !(found.lost?.t <= t)) found.lost = { wheel: i, t };
     }
   }
-  if (found.lost) { // where the straight line between two samples is zero
-    const { wheel, t } = found.lost, n = Math.round(t / dt);
+  if (found.lost) {
+    // where the straight line between two samples is zero
+    const { wheel, t } = found.lost,
+      n = Math.round(t / dt);
     const [before, after] = [N[wheel][n - 1], N[wheel][n]];
     if (after <= 0 && before > 0) found.lost = { wheel, t: (n - 1 + before / (before - after)) * dt };
   }
@@ -258,34 +305,42 @@ export function judgeExactly(run) {
 }
 
 /**
- * The least force of each wheel on the way, at many speeds: steps of equal length, so that all
- * speeds feel the same road, at v times the slope.
+ * A function of the speed: the least force of each wheel on the way, [rear, front]. Its steps are of
+ * equal length, so that all speeds feel the same road, at v times the slope.
  */
-export function makeCurve(data, robot, road, settings) {
-  const h = data.distance / CELLS, { curveScheme: scheme } = data, [c0, c1] = scheme.c;
+export function makeLeast(data, robot, road) {
+  const h = data.distance / CELLS,
+    { curveScheme: scheme } = data,
+    [c0, c1] = scheme.c;
   // D u = (its part by heights) + v (its part by slopes), at the cells' beginnings and two stages.
-  const D = flatten(robot.D), [byHeight, bySlope] = [0, 1].map((part) =>
-    D.map((x, i) => (i % 4 < 2 === (part === 0) ? x : 0)));
+  const D = flatten(robot.D),
+    [byHeight, bySlope] = [0, 1].map((part) => D.map((x, i) => (i % 4 < 2 === (part === 0) ? x : 0)));
   const sample = (D, c) =>
     roadForce(data, (x, u, i) => road(x, u, i, 1), D, 1, h, c, CELLS, new Float64Array(2 * CELLS + 2));
   const [H, H0, H1] = [0, c0, c1].map((c) => sample(byHeight, c));
   const [S, S0, S1] = [0, c0, c1].map((c) => sample(bySlope, c));
-  let begin = CELLS, end = 0; // outside, the road is level
+  let begin = CELLS,
+    end = 0; // outside, the road is level
   for (const part of [H, H0, H1, S, S0, S1]) {
     for (let i = 0; i < part.length; i++) {
       if (part[i] !== 0) [begin, end] = [Math.min(begin, i >> 1), Math.max(end, i >> 1)];
     }
   }
-  const C = flatten(robot.C), [r0, r1] = robot.weight, N0 = new Float64Array(CELLS + 1), N1 = N0.slice();
+  const C = flatten(robot.C),
+    [r0, r1] = robot.weight,
+    N0 = new Float64Array(CELLS + 1),
+    N1 = N0.slice();
 
-  /** [least of the rear wheel, of the front wheel] at a speed. */
-  function leastAt(v) {
+  return (v) => {
     const { R: rows, gains } = oneStep(scheme, robot.A, h / v);
     const [R00, R01, R02, R03, R10, R11, R12, R13, R20, R21, R22, R23, R30, R31, R32, R33] = flatten(rows);
     const [A00, A01, A10, A11, A20, A21, A30, A31] = flatten(multiply(gains[0][1], robot.P));
     const [B00, B01, B10, B11, B20, B21, B30, B31] = flatten(multiply(gains[1][1], robot.P));
     const [C0, C1, C2, C3, C4, C5, C6, C7] = C;
-    let d0 = 0, d1 = 0, d2 = 0, d3 = 0;
+    let d0 = 0,
+      d1 = 0,
+      d2 = 0,
+      d3 = 0;
     for (let n = begin; n <= CELLS; n++) {
       const m = 2 * n;
       let rear = r0 + C0 * d0 + C1 * d1 + C2 * d2 + C3 * d3;
@@ -297,8 +352,10 @@ export function makeCurve(data, robot, road, settings) {
       if (n <= end) {
         rear += H[m] + v * S[m];
         front += H[m + 1] + v * S[m + 1];
-        const f0 = H0[m] + v * S0[m], f1 = H0[m + 1] + v * S0[m + 1];
-        const g0 = H1[m] + v * S1[m], g1 = H1[m + 1] + v * S1[m + 1];
+        const f0 = H0[m] + v * S0[m],
+          f1 = H0[m + 1] + v * S0[m + 1];
+        const g0 = H1[m] + v * S1[m],
+          g1 = H1[m + 1] + v * S1[m + 1];
         x0 += A00 * f0 + A01 * f1 + B00 * g0 + B01 * g1;
         x1 += A10 * f0 + A11 * f1 + B10 * g0 + B11 * g1;
         x2 += A20 * f0 + A21 * f1 + B20 * g0 + B21 * g1;
@@ -312,9 +369,14 @@ export function makeCurve(data, robot, road, settings) {
       d3 = x3;
     }
     return [lowest(N0, begin, CELLS), lowest(N1, begin, CELLS)];
-  }
+  };
+}
 
-  const [low, high] = data.ranges.v, ratio = Math.log(high / low) / (SPEEDS - 1);
+/** The least force of each wheel at many speeds, and the speeds where it is zero. */
+export function makeCurve(data, robot, road, settings) {
+  const leastAt = makeLeast(data, robot, road);
+  const [low, high] = data.ranges.v,
+    ratio = Math.log(high / low) / (SPEEDS - 1);
   const speeds = Float64Array.from({ length: SPEEDS }, (_, i) => low * Math.exp(ratio * i));
   const least = [new Float64Array(SPEEDS), new Float64Array(SPEEDS)];
   speeds.forEach((v, i) => ([least[0][i], least[1][i]] = leastAt(v)));
@@ -334,14 +396,16 @@ function lowest(N, first, last) {
   if (at < first + 2 || at > last - 2) return N[at];
   // Newton's step to the bottom, with differences of fourth order.
   const [a, b, x, c, d] = [N[at - 2], N[at - 1], N[at], N[at + 1], N[at + 2]];
-  const slope = (a - 8 * b + 8 * c - d) / 12, curvature = (-a + 16 * b - 30 * x + 16 * c - d) / 12;
+  const slope = (a - 8 * b + 8 * c - d) / 12,
+    curvature = (-a + 16 * b - 30 * x + 16 * c - d) / 12;
   return curvature > 0 ? x - Math.min((slope * slope) / (2 * curvature), Math.abs(slope)) : x;
 }
 
 /** A zero of f between a and b, where it has the values fa and fb of different signs. */
 function zero(f, a, b, fa, fb) {
   for (let i = 0; i < 8 && b - a > 1e-6 * b; i++) {
-    const straight = a + ((b - a) * fa) / (fa - fb), x = i % 3 === 2 ? (a + b) / 2 : straight;
+    const straight = a + ((b - a) * fa) / (fa - fb),
+      x = i % 3 === 2 ? (a + b) / 2 : straight;
     const fx = f(x);
     if (fx > 0 === fa > 0) [a, fa] = [x, fx];
     else [b, fb] = [x, fx];
@@ -356,15 +420,23 @@ function zero(f, a, b, fa, fb) {
  * set changes, the step is parted at the zero of the straight line between its ends.
  */
 export function fly(data, robot, road, settings, memory) {
-  const { v } = settings, scale = shortestScale(data, robot, settings), end = data.distance / v;
-  const dt = Math.min(FINEST, scale.road / 16, 0.1 * scale.modes), J = countSteps(end, dt);
-  const motion = makeMotion(data, robot, road, v), { w, springs, press, advance } = motion;
+  const { v } = settings,
+    scale = shortestScale(data, robot, settings),
+    end = data.distance / v;
+  const dt = Math.min(FINEST, scale.road / 16, 0.1 * scale.modes),
+    J = countSteps(end, dt);
+  const motion = makeMotion(data, robot, road, v),
+    { w, springs, press, advance } = motion;
   const full = [0, 1, 2, 3].map((set) => motion.prepare(set, dt));
   const W = [0, 1, 2, 3].map((i) => memory(`flying W${i}`, J + 1));
   const N = [0, 1].map((i) => memory(`flying N${i}`, J + 1));
-  const gaps = [0, 1].map((i) => memory(`flying gap${i}`, J + 1)), events = [];
-  const [W0, W1, W2, W3] = W, [N0, N1] = N, [gap0, gap1] = gaps;
-  let before = new Float64Array(4), after = new Float64Array(4);
+  const gaps = [0, 1].map((i) => memory(`flying gap${i}`, J + 1)),
+    events = [];
+  const [W0, W1, W2, W3] = W,
+    [N0, N1] = N,
+    [gap0, gap1] = gaps;
+  let before = new Float64Array(4),
+    after = new Float64Array(4);
   const saved = new Float64Array(4);
   springs(0, before);
   let set = press(before);
@@ -398,7 +470,9 @@ export function fly(data, robot, road, settings, memory) {
  */
 function part({ w, springs, press, advance, prepare, v }, start, dt, set, before, after, events) {
   const saved = new Float64Array(4);
-  let t = start, left = dt, [first, last] = [before.slice(), after.slice()];
+  let t = start,
+    left = dt,
+    [first, last] = [before.slice(), after.slice()];
   for (let tries = 0; tries < MOST && left > 0; tries++) {
     const next = press(last);
     if (next === set) return set;
@@ -412,7 +486,8 @@ function part({ w, springs, press, advance, prepare, v }, start, dt, set, before
     for (const i of [0, 1]) {
       if (parts[i] > share + 1e-9) continue;
       set ^= 1 << i;
-      const lands = Boolean(set & (1 << i)), force = lands ? Math.max(first[2 + i], 0) : 0;
+      const lands = Boolean(set & (1 << i)),
+        force = lands ? Math.max(first[2 + i], 0) : 0;
       events.push({ wheel: i, kind: lands ? "landing" : "lift-off", t, X: v * t, force });
     }
     saved.set(w);
@@ -426,13 +501,17 @@ function part({ w, springs, press, advance, prepare, v }, start, dt, set, before
 
 /** The motion of a robot at a speed: its state w, and how it goes on with each set of wheels. */
 function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
-  const w = Float64Array.from(equilibrium), u = new Float64Array(4), [rear, front] = data.wheels;
+  const w = Float64Array.from(equilibrium),
+    u = new Float64Array(4),
+    [rear, front] = data.wheels;
   const systems = [0, 1, 2, 3].map((set) => {
     const pressing = P.map((row) => row.map((value, i) => (set & (1 << i) ? value : 0)));
     return { A: combine([1, S], [1, multiply(pressing, C)]), B: multiply(pressing, D) };
   });
-  const rows = [Cp[0], Cp[1], C[0], C[1]], columns = [Dp[0], Dp[1], D[0], D[1]];
-  const M = flatten(rows), L = flatten(columns);
+  const rows = [Cp[0], Cp[1], C[0], C[1]],
+    columns = [Dp[0], Dp[1], D[0], D[1]];
+  const M = flatten(rows),
+    L = flatten(columns);
   const feel = (t) => {
     road(v * t + rear, u, 0, v);
     road(v * t + front, u, 1, v);
@@ -448,7 +527,10 @@ function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
       return { R: flatten(R), weight: apply(total, e), places: gains.map(([c]) => c * h), forcing };
     },
     advance({ R, weight, places, forcing }, t) {
-      const w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
+      const w0 = w[0],
+        w1 = w[1],
+        w2 = w[2],
+        w3 = w[3];
       let x0 = weight[0] + R[0] * w0 + R[1] * w1 + R[2] * w2 + R[3] * w3;
       let x1 = weight[1] + R[4] * w0 + R[5] * w1 + R[6] * w2 + R[7] * w3;
       let x2 = weight[2] + R[8] * w0 + R[9] * w1 + R[10] * w2 + R[11] * w3;
@@ -492,7 +574,8 @@ function turn(before, after, i) {
 /** How long each wheel bears no force, s. */
 function airtime(events, end) {
   return [0, 1].map((i) => {
-    let total = 0, since = null;
+    let total = 0,
+      since = null;
     for (const { wheel, kind, t } of events) {
       if (wheel !== i) continue;
       if (kind === "lift-off") since = t;
@@ -504,7 +587,9 @@ function airtime(events, end) {
 
 /** The moment `at` steps after the start; between two samples on the straight line that is drawn. */
 export function lookUp({ W, N, J, dt }, at) {
-  const place = Math.min(at, J), n = Math.min(Math.floor(place), J - 1), part = place - n;
+  const place = Math.min(at, J),
+    n = Math.min(Math.floor(place), J - 1),
+    part = place - n;
   const mix = (x) => (part === 0 ? x[n] : part === 1 ? x[n + 1] : x[n] + part * (x[n + 1] - x[n]));
   return { t: place * dt, W: W.map(mix), N: N.map(mix) };
 }

@@ -32,7 +32,8 @@ const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCo
 function start(box) {
   const values = JSON.parse(box.querySelector(".se-state").textContent);
   for (const [name, text] of Object.entries(values.tables)) values.tables[name] = bytes(text);
-  const model = makeModel(values), place = box.querySelector(".se-place");
+  const model = makeModel(values),
+    place = box.querySelector(".se-place");
   const view = render(model, place);
   bindControls(box, model, view);
   box.classList.add("se-live");
@@ -42,7 +43,8 @@ function start(box) {
 function begin() {
   const explorers = [...document.querySelectorAll(".suspension-explorer-box.se-page")].map(start);
   if (!explorers.length) return;
-  let timer = 0, quiet = false;
+  let timer = 0,
+    quiet = false;
 
   /** Set the picture that a hash names, the others to where they began; true if it names one. */
   const follow = (hash) => {

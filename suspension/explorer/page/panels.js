@@ -1,6 +1,8 @@
 // The four panels. Each has a `still` part, drawn when what was computed changes, and a `live` part,
-// drawn over it at every moment; `grab` says what a pointer at x, y takes hold of.
+// drawn over it at every moment; `grab` says what a pointer at x, y takes hold of. The still part is
+// drawn again only when the panel's `key` is another one.
 
+import { drawMap } from "./map.js";
 import { clamp, show, ticks } from "./pen.js";
 import { WHEEL } from "./words.js";
 
@@ -11,10 +13,13 @@ const REACH = 24; // pixels around a thing that one can take hold of
 
 /** A curve through samples; where they are dense, the first of each few and those that stand out. */
 function trace(values, x, y, width) {
-  const path = new Path2D(), every = Math.max(1, Math.floor((2 * values.length) / width));
+  const path = new Path2D(),
+    every = Math.max(1, Math.floor((2 * values.length) / width));
   for (let n = 0; n < values.length; n += every) {
-    const end = Math.min(n + every, values.length) - 1, points = [n];
-    let low = n, high = n;
+    const end = Math.min(n + every, values.length) - 1,
+      points = [n];
+    let low = n,
+      high = n;
     for (let m = n + 1; m <= end; m++) {
       if (values[m] < values[low]) low = m;
       if (values[m] > values[high]) high = m;
@@ -35,14 +40,20 @@ export const robotPanel = {
   name: "robot",
   title: "The robot on its road",
   live(pen, scene, { now, motion, ghost }) {
-    const { g, w, h, stroke, fill, line, text } = pen, { data, road, robot } = scene;
-    const [rear, front] = data.wheels, length = front - rear;
+    const { g, w, h, stroke, fill, line, text } = pen,
+      { data, road, robot } = scene;
+    const [rear, front] = data.wheels,
+      length = front - rear;
     const scale = Math.min(w / (length * clamp(w / 260, 1.7, 2.3)), (h - 50) / (0.62 * length));
     this.scale = scale;
-    const { X } = now, u = new Float64Array(4), spot = new Float64Array(4);
+    const { X } = now,
+      u = new Float64Array(4),
+      spot = new Float64Array(4);
     [rear, front].forEach((offset, i) => road(X + offset, u, i, 0));
-    const level = (u[0] + u[1]) / 2, climb = level - clamp(level, -0.03, 0.03); // up and down hills
-    const px = (x) => w / 2 + (x - X) * scale, py = (y) => h - 42 - (y - climb) * scale;
+    const level = (u[0] + u[1]) / 2,
+      climb = level - clamp(level, -0.03, 0.03); // up and down hills
+    const px = (x) => w / 2 + (x - X) * scale,
+      py = (y) => h - 42 - (y - climb) * scale;
 
     g.beginPath();
     for (let x = 0; x <= w + 2; x += 2) {
@@ -61,30 +72,54 @@ export const robotPanel = {
     }
     const place = { X, px, py, u, r: 0.055 * length, ride: 0.28 * length, scale };
     if (ghost) drawRobot(pen, scene, place, ghost, true);
-    const shown = now[motion], wild = drawRobot(pen, scene, place, shown, false);
+    const shown = now[motion],
+      wild = drawRobot(pen, scene, place, shown, false);
     [0, 1].forEach((i) => {
-      const lost = !(shown.N[i] > 0), spring = compression(robot, shown.W, u, i);
+      const lost = !(shown.N[i] > 0),
+        spring = compression(robot, shown.W, u, i);
       const words = `${NAMES[i]} ${lost ? (motion === "flying" ? "in the air" : "lost") : `= ${show(shown.N[i])} N`}`;
-      text(words, px(X + data.wheels[i]), h - 24, { align: "center", colour: lost ? "alarm" : "ink", bold: lost, halo: true });
+      text(words, px(X + data.wheels[i]), h - 24, {
+        align: "center",
+        colour: lost ? "alarm" : "ink",
+        bold: lost,
+        halo: true,
+      });
       if (spring > data.springEnd) {
-        text("beyond the measured spring", i ? w - 8 : 8, 30, { align: i ? "right" : "left", colour: "doubt", bold: true });
+        text("beyond the measured spring", i ? w - 8 : 8, 30, {
+          align: i ? "right" : "left",
+          colour: "doubt",
+          bold: true,
+        });
       }
     });
-    if (wild) text("computed far outside this picture", w / 2, 14, { align: "center", colour: "doubt", bold: true });
+    if (wild)
+      text("computed far outside this picture", w / 2, 14, { align: "center", colour: "doubt", bold: true });
   },
-  grab(x, y, { now, scene }) {
-    const { scale } = this, { X } = now;
-    return { cursor: "grabbing", to: (x2) => ({ time: clamp((X + (x2 - x) / scale) / scene.data.distance, 0, 1) }) };
+  grab(x, _y, { now, scene }) {
+    const { scale } = this,
+      { X } = now;
+    return {
+      cursor: "grabbing",
+      to: (x2) => ({ time: clamp((X + (x2 - x) / scale) / scene.data.distance, 0, 1) }),
+    };
   },
 };
 
 /** How far a spring is compressed. */
 const compression = ({ Cp, Dp }, W, u, i) =>
-  Cp[i].reduce((sum, value, j) => sum + value * W[j], 0) + Dp[i].reduce((sum, value, j) => sum + value * u[j], 0);
+  Cp[i].reduce((sum, value, j) => sum + value * W[j], 0) +
+  Dp[i].reduce((sum, value, j) => sum + value * u[j], 0);
 
 /** The body, springs, dampers and wheels in one state; true if it is far outside the picture. */
-function drawRobot({ g, stroke, line, dot }, { data, robot, flight }, { X, px, py, u, r, ride, scale }, { W, N }, faint) {
-  const Y = clamp(W[0], -0.3, 0.3) || 0, tilt = clamp(W[2], -1.5, 1.5) || 0;
+function drawRobot(
+  { g, stroke, line, dot },
+  { data, robot, flight },
+  { X, px, py, u, r, ride, scale },
+  { W, N },
+  faint,
+) {
+  const Y = clamp(W[0], -0.3, 0.3) || 0,
+    tilt = clamp(W[2], -1.5, 1.5) || 0;
   const state = [Y, 0, tilt, 0];
   const p = [0, 1].map((i) => compression(robot, state, u, i));
   const hubs = p.map((value, i) => u[i] + Math.max(-value, 0) + r); // on the ground, else hanging
@@ -98,7 +133,8 @@ function drawRobot({ g, stroke, line, dot }, { data, robot, flight }, { X, px, p
     const hub = py(hubs[i]);
     stroke(WHEEL[i], 1.8);
     const coils = Array.from({ length: 13 }, (_, k) => [
-      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6), hub + ((top - hub) * k) / 12,
+      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6),
+      hub + ((top - hub) * k) / 12,
     ]);
     line(...coils.flat());
     const middle = (hub + top) / 2; // the damper: a rod in a cup
@@ -111,7 +147,8 @@ function drawRobot({ g, stroke, line, dot }, { data, robot, flight }, { X, px, p
     dot(x, hub, r * scale, faint ? null : "paper", WHEEL[i], 3);
     g.restore();
     if (faint) return;
-    const foot = py(u[i]), beside = x + (i ? 1 : -1) * (r * scale + 16);
+    const foot = py(u[i]),
+      beside = x + (i ? 1 : -1) * (r * scale + 16);
     const arrow = clamp((34 * N[i]) / flight.N[i][0], 0, 110); // 34 pixels for the force at rest
     stroke(WHEEL[i], 2.5);
     line(beside, foot, beside, foot - arrow);
@@ -124,7 +161,14 @@ function drawRobot({ g, stroke, line, dot }, { data, robot, flight }, { X, px, p
   g.lineCap = "butt";
   if (!faint) {
     const share = (0 - data.wheels[0]) / (data.wheels[1] - data.wheels[0]); // the centre of mass
-    dot(body[0][0] + share * (body[1][0] - body[0][0]), body[0][1] + share * (body[1][1] - body[0][1]), 5, "paper", "ink", 2);
+    dot(
+      body[0][0] + share * (body[1][0] - body[0][0]),
+      body[0][1] + share * (body[1][1] - body[0][1]),
+      5,
+      "paper",
+      "ink",
+      2,
+    );
   }
   g.restore();
   return Y !== W[0] || tilt !== W[2];
@@ -143,15 +187,25 @@ function levels({ stroke, line, text }, values, py, left, right) {
 export const forcesPanel = {
   name: "forces",
   title: "Normal forces",
+  key: ({ settings }, { motion }) => [...Object.values(settings), motion],
   still(pen, scene, { motion, pinned }) {
-    const { w, h, g, stroke, shade, line, dot, text, inside } = pen, { run, truth, flight, v, end, data } = scene;
-    const flying = motion === "flying", exact = truth.verdict, verdict = flying || !run ? exact : run.verdict;
+    const { w, h, g, stroke, shade, line, dot, text, inside } = pen,
+      { run, truth, flight, v, end, data } = scene;
+    const flying = motion === "flying",
+      exact = truth.verdict,
+      verdict = flying || !run ? exact : run.verdict;
     const [left, right, top, bottom] = [38, w - 10, 46, h - 30];
-    const floor = Math.min(0, flying ? 0 : exact.least), span = exact.most - floor || 1;
+    const floor = Math.min(0, flying ? 0 : exact.least),
+      span = exact.most - floor || 1;
     const peak = flying ? highest(flight, exact.most) : exact.most;
-    const low = flying ? -0.08 * peak : Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
-    const high = flying ? 1.08 * peak : Math.min(Math.max(exact.most, verdict.most), exact.most + 0.7 * span) + 0.05 * span;
-    const px = (t) => left + ((right - left) * t) / end, py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
+    const low = flying
+      ? -0.08 * peak
+      : Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
+    const high = flying
+      ? 1.08 * peak
+      : Math.min(Math.max(exact.most, verdict.most), exact.most + 0.7 * span) + 0.05 * span;
+    const px = (t) => left + ((right - left) * t) / end,
+      py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
     this.frame = { left, right, top, bottom, px, py, end };
 
     text("Normal forces (N)", 0, 13, { colour: "ink", bold: true });
@@ -192,41 +246,66 @@ export const forcesPanel = {
       stroke("ink", 1.2);
       line(left, py(0), right, py(0));
       const curve = (found, i, width, dash) =>
-        stroke(WHEEL[i], width, dash, trace(found.N[i].subarray(0, found.J + 1), (m) => px(m * found.dt), py, right - left));
+        stroke(
+          WHEEL[i],
+          width,
+          dash,
+          trace(found.N[i].subarray(0, found.J + 1), (m) => px(m * found.dt), py, right - left),
+        );
       g.globalAlpha = 0.25;
       for (const i of [0, 1]) curve(truth, i, 6, []);
       g.globalAlpha = 1;
       if (pinned) {
         for (const i of [0, 1]) {
-          stroke("soft", 1.5, DASH[i], trace(pinned.N[i], (m) => px((m * pinned.dt * pinned.v) / v), py, right - left));
+          stroke(
+            "soft",
+            1.5,
+            DASH[i],
+            trace(pinned.N[i], (m) => px((m * pinned.dt * pinned.v) / v), py, right - left),
+          );
         }
       }
       if (flying) for (const i of [0, 1]) curve(flight, i, 2, DASH[i]);
       else if (run) {
         for (const i of [0, 1]) {
           curve(run, i, 1.8, DASH[i]);
-          if (run.J < (right - left) / 8) { // few enough to see the samples
+          if (run.J < (right - left) / 8) {
+            // few enough to see the samples
             run.N[i].forEach((N, m) => dot(px(m * run.dt), py(N), 2.5, WHEEL[i]));
           }
         }
       }
       if (flying) {
         for (const { wheel, kind, t, force } of flight.events.slice(0, 40)) {
-          dot(px(t), py(force), kind === "landing" ? 4.5 : 3.5, kind === "landing" ? WHEEL[wheel] : "paper", WHEEL[wheel], 2);
+          dot(
+            px(t),
+            py(force),
+            kind === "landing" ? 4.5 : 3.5,
+            kind === "landing" ? WHEEL[wheel] : "paper",
+            WHEEL[wheel],
+            2,
+          );
         }
       } else {
-        if (run?.verdict.lost && scene.stable) mark(pen, this.frame, run.verdict.lost.t, 0, "contact lost", "alarm");
+        if (run?.verdict.lost && scene.stable)
+          mark(pen, this.frame, run.verdict.lost.t, 0, "contact lost", "alarm");
         if (run && scene.stable && !run.verdict.lost && exact.lost) {
           mark(pen, this.frame, exact.t, exact.least, "missed", "doubt");
         }
         if (run && (verdict.least < low || verdict.most > high)) {
-          text("grows out of this picture", right - 8, top + 18, { align: "right", colour: "doubt", bold: true, halo: true });
+          text("grows out of this picture", right - 8, top + 18, {
+            align: "right",
+            colour: "doubt",
+            bold: true,
+            halo: true,
+          });
         }
       }
     });
   },
-  live(pen, scene, { now, motion }) {
-    const { stroke, line, dot } = pen, { px, py, top, bottom } = this.frame;
+  live(pen, _scene, { now, motion }) {
+    const { stroke, line, dot } = pen,
+      { px, py, top, bottom } = this.frame;
     stroke("soft", 1);
     line(px(now.t), top, px(now.t), bottom);
     for (const i of [0, 1]) dot(px(now.t), clamp(py(now[motion].N[i]), top, bottom), 5, WHEEL[i], "paper");
@@ -258,7 +337,9 @@ function shadeAirborne({ shade }, { events, dt, J }, px, top, bottom) {
 
 /** A ring with words beside it. */
 function mark({ dot, text }, { px, py, left, right, top, bottom }, t, N, words, colour) {
-  const x = px(t), y = clamp(py(N), top + 8, bottom - 8), align = x > (left + right) / 2 ? "right" : "left";
+  const x = px(t),
+    y = clamp(py(N), top + 8, bottom - 8),
+    align = x > (left + right) / 2 ? "right" : "left";
   dot(x, y, 6, null, colour, 2.5);
   text(words, x + (align === "left" ? 10 : -10), y + 18, { align, colour, bold: true, halo: true });
 }
@@ -267,12 +348,21 @@ function mark({ dot, text }, { px, py, left, right, top, bottom }, t, N, words, 
 export const speedsPanel = {
   name: "speeds",
   title: "Least force at every speed",
-  still(pen, scene, { pinned }) {
-    const { w, h, stroke, shade, line, dot, text, inside } = pen, { curve, data, robot } = scene;
-    const { speeds, least, critical } = curve, [lowest, highestSpeed] = data.ranges.v;
-    const [left, right, top, bottom] = [38, w - 12, 46, h - 30], rest = Math.max(...robot.weight);
+  key: ({ settings: { k, c, height, sigma } }, { map }) => (map ? map.key : [k, c, height, sigma]),
+  still(pen, scene, { pinned, map }) {
+    if (map) {
+      this.frame = drawMap(pen, scene, map);
+      return;
+    }
+    const { w, h, stroke, shade, line, dot, text, inside } = pen,
+      { curve, data, robot } = scene;
+    const { speeds, least, critical } = curve,
+      [lowest, highestSpeed] = data.ranges.v;
+    const [left, right, top, bottom] = [38, w - 12, 46, h - 30],
+      rest = Math.max(...robot.weight);
     const bottomForce = Math.min(...least[0], ...least[1]);
-    const low = Math.max(Math.min(bottomForce, -0.4 * rest), -4 * rest) - 0.1 * rest, high = 1.9 * rest;
+    const low = Math.max(Math.min(bottomForce, -0.4 * rest), -4 * rest) - 0.1 * rest,
+      high = 1.9 * rest;
     const ratio = Math.log(highestSpeed / lowest);
     const px = (v) => left + ((right - left) * Math.log(v / lowest)) / ratio;
     const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
@@ -281,9 +371,17 @@ export const speedsPanel = {
     levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
     const edges = [lowest, ...critical, highestSpeed];
     edges.slice(1).forEach((edge, i) => {
-      const kept = curve.kept === (i % 2 === 0), a = px(edges[i]), b = px(edge);
+      const kept = curve.kept === (i % 2 === 0),
+        a = px(edges[i]),
+        b = px(edge);
       shade(kept ? "region" : "alarm", 0.1, a, top, b - a, bottom - top);
-      if (b - a > 40) text(kept ? "kept" : "lost", (a + b) / 2, top + 14, { align: "center", colour: kept ? "region" : "alarm", bold: true, halo: true });
+      if (b - a > 40)
+        text(kept ? "kept" : "lost", (a + b) / 2, top + 14, {
+          align: "center",
+          colour: kept ? "region" : "alarm",
+          bold: true,
+          halo: true,
+        });
     });
     for (const v of [0.1, 0.2, 0.5, 1, 2, 5, 10, 20]) {
       stroke("soft", 1);
@@ -294,8 +392,21 @@ export const speedsPanel = {
     inside(left, top, right - left, bottom - top, () => {
       stroke("ink", 1.2);
       line(left, py(0), right, py(0));
-      if (pinned) for (const i of [0, 1]) stroke("soft", 1.5, DASH[i], trace(pinned.least[i], (m) => px(speeds[m]), py, FAR));
-      for (const i of [0, 1]) stroke(WHEEL[i], 2, DASH[i], trace(least[i], (m) => px(speeds[m]), py, FAR));
+      if (pinned)
+        for (const i of [0, 1])
+          stroke(
+            "soft",
+            1.5,
+            DASH[i],
+            trace(pinned.least[i], (m) => px(speeds[m]), py, FAR),
+          );
+      for (const i of [0, 1])
+        stroke(
+          WHEEL[i],
+          2,
+          DASH[i],
+          trace(least[i], (m) => px(speeds[m]), py, FAR),
+        );
       for (const v of data.asked) dot(px(v), py(Math.min(...curve.leastAt(v))), 3.5, "paper", "ink", 1.5);
     });
     let last = -FAR;
@@ -306,20 +417,26 @@ export const speedsPanel = {
       last = x - last < 34 ? last : x;
     }
   },
-  live({ stroke, line, dot }, scene) {
-    const { px, py, top, bottom } = this.frame, x = px(scene.v);
+  live({ stroke, line, dot }, scene, { map }) {
+    const { px, py, top, bottom } = this.frame,
+      x = px(scene.v);
+    if (map) {
+      dot(x, py(scene.settings.k), 6, "ink", "paper", 2);
+      return;
+    }
     stroke("ink", 1.5);
     line(x, top, x, bottom);
     const margin = clamp(py(scene.truth.verdict.least), top, bottom);
     dot(x, margin, 6, "ink", "paper", 2);
   },
-  grab(x) {
-    const { left, right, lowest, ratio } = this.frame;
-    const to = (x2) => {
+  grab(x, y, { map }) {
+    const { left, right, lowest, ratio, stiffness } = this.frame;
+    const to = (x2, y2) => {
+      const k = map && { k: Number(stiffness(y2).toPrecision(3)) };
       const v = lowest * Math.exp((ratio * clamp(x2 - left, 0, right - left)) / (right - left));
-      return { v: Number(v.toPrecision(3)), time: null };
+      return { v: Number(v.toPrecision(3)), ...k, time: null };
     };
-    return { cursor: "ew-resize", to, at: to(x) };
+    return { cursor: map ? "crosshair" : "ew-resize", to, at: to(x, y) };
   },
 };
 
@@ -327,14 +444,19 @@ export const speedsPanel = {
 export const stabilityPanel = {
   name: "stability",
   title: "Region of absolute stability",
+  key: ({ settings: { k, c, dt, scheme_index } }, { held }) => [k, c, dt, scheme_index, held],
   still(pen, scene, { pinned, held }) {
-    const { w, h, text } = pen, { scheme, robot, dt } = scene;
-    const [left, right, top, bottom] = [26, w - 4, 24, h - 30], size = robot.modes.map(([re, im]) => Math.hypot(re, im));
+    const { w, h, text } = pen,
+      { scheme, robot, dt } = scene;
+    const [left, right, top, bottom] = [26, w - 4, 24, h - 30],
+      size = robot.modes.map(([re, im]) => Math.hypot(re, im));
     const half = held ? this.frame.half : Math.max(3.4, 1.15 * dt * Math.max(...size));
     this.frame = { half, ...plane(left, right, top, bottom, half, 0.74) };
     text(`Stability of ${scheme.name}`, 0, 13, { colour: "ink", bold: true });
-    const { px, py, scale } = this.frame, { zero } = this.frame;
-    for (const im of ticks(-half, half, (bottom - top) / 40)) text(show(im), left - 5, py(im) + 4, { align: "right" });
+    const { px, py, scale } = this.frame,
+      { zero } = this.frame;
+    for (const im of ticks(-half, half, (bottom - top) / 40))
+      text(show(im), left - 5, py(im) + 4, { align: "right" });
     for (const re of ticks((left - zero) / scale, (right - zero) / scale, (right - left) / 40)) {
       text(show(re), px(re), bottom + 15, { align: "center" });
     }
@@ -344,7 +466,8 @@ export const stabilityPanel = {
     // When the modes crowd near zero: the same, enlarged. What one holds on to does not move away.
     const reach = dt * Math.max(...size);
     if (!held) {
-      const side = Math.min(0.44 * (bottom - top), 0.45 * (right - left)), [x, y] = [left + 6, bottom - 6];
+      const side = Math.min(0.44 * (bottom - top), 0.45 * (right - left)),
+        [x, y] = [left + 6, bottom - 6];
       const crowded = reach * scale < 30 && side > 60;
       this.inset = crowded ? plane(x, x + side, y - side, y, 1.3 * reach, 0.72) : null;
     }
@@ -370,7 +493,8 @@ export const stabilityPanel = {
       line(left, py(0), right, py(0));
       line(px(0), top, px(0), bottom);
       stroke("region", 1.6, [], region);
-      if (main) text("stable", px((-1.15 * half) / 3.4), py(0.12 * half), { align: "center", colour: "region" });
+      if (main)
+        text("stable", px((-1.15 * half) / 3.4), py(0.12 * half), { align: "center", colour: "region" });
       const others = new Path2D();
       stroke("soft", 0.6);
       for (const [re, im] of robot.modes) {
@@ -382,15 +506,20 @@ export const stabilityPanel = {
       }
       fill("soft", 1, others);
       if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "soft", 1.5));
-      robot.modes.forEach(([re, im], i) => dot(px(re * dt), py(im * dt), main ? 5.5 : 4.5, growths[i] > 1 + 1e-12 ? "alarm" : "ink", "paper"));
+      robot.modes.forEach(([re, im], i) =>
+        dot(px(re * dt), py(im * dt), main ? 5.5 : 4.5, growths[i] > 1 + 1e-12 ? "alarm" : "ink", "paper"),
+      );
     });
   },
   grab(x, y, { scene }) {
-    const { modes } = scene.robot, { dt, data } = scene;
-    const { inset } = this, inInset = inset && x >= inset.left && x <= inset.right && y >= inset.top && y <= inset.bottom;
+    const { modes } = scene.robot,
+      { dt, data } = scene;
+    const { inset } = this,
+      inInset = inset && x >= inset.left && x <= inset.right && y >= inset.top && y <= inset.bottom;
     const frame = inInset ? inset : this.frame;
     const away = ([re, im]) => Math.hypot(x - frame.px(re * dt), y - frame.py(im * dt));
-    const nearest = modes.reduce((a, b) => (away(b) < away(a) ? b : a)), [re, im] = nearest;
+    const nearest = modes.reduce((a, b) => (away(b) < away(a) ? b : a)),
+      [re, im] = nearest;
     if (away(nearest) > REACH) return null;
     const to = (x2, y2) => {
       const along = ((x2 - frame.px(0)) * re - (y2 - frame.py(0)) * im) / frame.scale;
@@ -403,8 +532,25 @@ export const stabilityPanel = {
 
 /** The complex plane in a rectangle, one scale for both directions. */
 function plane(left, right, top, bottom, half, share) {
-  const scale = (bottom - top) / 2 / half, zero = left + share * (right - left), middle = (top + bottom) / 2;
-  return { left, right, top, bottom, half, scale, zero, px: (re) => zero + re * scale, py: (im) => middle - im * scale };
+  const scale = (bottom - top) / 2 / half,
+    zero = left + share * (right - left),
+    middle = (top + bottom) / 2;
+  return {
+    left,
+    right,
+    top,
+    bottom,
+    half,
+    scale,
+    zero,
+    px: (re) => zero + re * scale,
+    py: (im) => middle - im * scale,
+  };
 }
 
-export const PANELS = { robot: robotPanel, speeds: speedsPanel, forces: forcesPanel, stability: stabilityPanel };
+export const PANELS = {
+  robot: robotPanel,
+  speeds: speedsPanel,
+  forces: forcesPanel,
+  stability: stabilityPanel,
+};

@@ -5,7 +5,10 @@ export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 /** A number in few digits, with a true minus sign and powers of ten. */
 export function show(x, digits = 3) {
   if (!Number.isFinite(x)) return "more than 10³⁰⁰";
-  const [mantissa, power] = x.toExponential(digits - 1).split("e").map(Number);
+  const [mantissa, power] = x
+    .toExponential(digits - 1)
+    .split("e")
+    .map(Number);
   const raised = String(power).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
   const plain = x === 0 || (power > -4 && power < 5);
   const text = plain ? String(Number(x.toPrecision(digits))) : `${mantissa}\u00a0×\u00a010${raised}`;
@@ -17,9 +20,11 @@ export const plain = (x, digits = 6) => String(Number(x.toPrecision(digits)));
 
 /** Round numbers from low to high, at most `count` steps of 1, 2 or 5 times a power of ten. */
 export function ticks(low, high, count) {
-  const raw = (high - low) / count, ten = 10 ** Math.floor(Math.log10(raw));
+  const raw = (high - low) / count,
+    ten = 10 ** Math.floor(Math.log10(raw));
   const step = ten * [1, 2, 5, 10].find((m) => m * ten >= raw);
-  const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+  const first = Math.ceil(low / step - 1e-9),
+    last = Math.floor(high / step + 1e-9);
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
 }
 
@@ -32,7 +37,10 @@ export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 
   g.clearRect(0, 0, w, h);
   g.lineJoin = "round";
   const pen = {
-    g, w, h, colours,
+    g,
+    w,
+    h,
+    colours,
     stroke(colour, lineWidth, dash = [], path) {
       Object.assign(g, { strokeStyle: colours[colour], lineWidth });
       g.setLineDash(dash);

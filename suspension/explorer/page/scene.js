@@ -1,6 +1,20 @@
 // Everything that is shown at the present settings, computed anew only where something changed.
 
-import { countSteps, difference, fly, growth, judge, judgeExactly, lookUp, makeCurve, makeMemory, makeRoad, makeRobot, reference, simulate } from "./model.js";
+import {
+  countSteps,
+  difference,
+  fly,
+  growth,
+  judge,
+  judgeExactly,
+  lookUp,
+  makeCurve,
+  makeMemory,
+  makeRoad,
+  makeRobot,
+  reference,
+  simulate,
+} from "./model.js";
 
 const STABLE = 1 + 1e-12; // as in Python
 export const SETTINGS = ["v", "dt", "k", "c", "height", "sigma", "scheme_index"];
@@ -17,20 +31,25 @@ function remember() {
 
 /** A function of the settings that returns the scene. The next call overwrites its long arrays. */
 export function makeScenes(data) {
-  const once = remember(), spaces = { run: makeMemory(), truth: makeMemory(), flight: makeMemory() };
+  const once = remember(),
+    spaces = { run: makeMemory(), truth: makeMemory(), flight: makeMemory() };
   return (settings) => {
-    const { v, dt, k, c, height, sigma, scheme_index } = settings, scheme = data.schemes[scheme_index];
-    const end = data.distance / v, J = countSteps(end, dt);
+    const { v, dt, k, c, height, sigma, scheme_index } = settings,
+      scheme = data.schemes[scheme_index];
+    const end = data.distance / v,
+      J = countSteps(end, dt);
     const robot = once("robot", [k, c], () => makeRobot(data, settings));
     const road = once("road", [height, sigma], () => makeRoad(data.shape, settings));
-    const here = [k, c, height, sigma], there = [...here, v];
+    const here = [k, c, height, sigma],
+      there = [...here, v];
     const curve = once("curve", here, () => makeCurve(data, robot, road, settings));
     const truth = once("truth", [...there, dt], () => {
       const found = reference(data, robot, road, settings, spaces.truth);
       return { ...found, verdict: judgeExactly(found), beyond: beyond(data, robot, road, found) };
     });
     const flight = once("flight", [...there, truth.verdict.lost ? "" : truth.J], () =>
-      truth.verdict.lost ? fly(data, robot, road, settings, spaces.flight) : grounded(truth));
+      truth.verdict.lost ? fly(data, robot, road, settings, spaces.flight) : grounded(truth),
+    );
     const run = once("run", [...there, dt, scheme_index], () => {
       const found = simulate(data, robot, road, scheme, v, dt, J, spaces.run);
       return found && { ...found, verdict: judge(found), error: difference(found, truth) };
@@ -48,7 +67,9 @@ function grounded(truth) {
 
 /** When a spring is compressed further than it was measured: pairs of times. */
 function beyond(data, robot, road, { W, J, dt, v }) {
-  const { Cp, Dp } = robot, u = new Float64Array(4), ranges = [];
+  const { Cp, Dp } = robot,
+    u = new Float64Array(4),
+    ranges = [];
   let since = null;
   for (let n = 0; n <= J; n++) {
     data.wheels.forEach((offset, i) => road(v * n * dt + offset, u, i, v));

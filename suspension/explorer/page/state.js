@@ -24,7 +24,8 @@ export function writeHash(settings, initial, index = 0) {
 
 /** [index, settings] of a text that `writeHash`, or an author, wrote; unknown names are left out. */
 export function readHash(text) {
-  const parts = new URLSearchParams(text), settings = {};
+  const parts = new URLSearchParams(text),
+    settings = {};
   for (const [name, value] of parts) {
     if (NUMBERS.includes(name)) {
       const number = readNumber(value);

@@ -10,11 +10,16 @@ function save(name, blob) {
 
 /** All panels with the words above them, as one PNG. */
 export function savePicture(canvases, words, colours) {
-  const ratio = window.devicePixelRatio || 1, edge = 16 * ratio, line = 20 * ratio;
+  const ratio = window.devicePixelRatio || 1,
+    edge = 16 * ratio,
+    line = 20 * ratio;
   const boxes = canvases.map((canvas) => canvas.getBoundingClientRect());
-  const left = Math.min(...boxes.map((box) => box.left)), top = Math.min(...boxes.map((box) => box.top));
-  const width = Math.max(...boxes.map((box) => box.right)) - left, height = Math.max(...boxes.map((box) => box.bottom)) - top;
-  const picture = document.createElement("canvas"), g = picture.getContext("2d");
+  const left = Math.min(...boxes.map((box) => box.left)),
+    top = Math.min(...boxes.map((box) => box.top));
+  const width = Math.max(...boxes.map((box) => box.right)) - left,
+    height = Math.max(...boxes.map((box) => box.bottom)) - top;
+  const picture = document.createElement("canvas"),
+    g = picture.getContext("2d");
   picture.width = width * ratio + 2 * edge;
   g.font = `${13 * ratio}px ${colours.font}`;
   const lines = wrap(words, (text) => g.measureText(text).width, width * ratio);
@@ -26,7 +31,8 @@ export function savePicture(canvases, words, colours) {
   lines.forEach((text, i) => g.fillText(text, edge, edge + (i + 0.7) * line));
   const below = edge + (lines.length + 0.5) * line;
   canvases.forEach((canvas, i) => {
-    if (canvas.width) g.drawImage(canvas, edge + (boxes[i].left - left) * ratio, below + (boxes[i].top - top) * ratio);
+    if (canvas.width)
+      g.drawImage(canvas, edge + (boxes[i].left - left) * ratio, below + (boxes[i].top - top) * ratio);
   });
   picture.toBlob((blob) => save("suspension.png", blob));
 }
@@ -59,5 +65,5 @@ export function pythonOf({ python }, settings, schemeIndex, motion) {
   const values = { v: settings.v, dt: settings.dt, scheme: python.schemes[schemeIndex] };
   for (const [name, [slider, ratio]] of Object.entries(python.gaps)) values[name] = settings[slider] * ratio;
   const text = motion === "flying" ? `${python.text}\n${python.flight}` : python.text;
-  return text.replace(/\{(\w+)\}/g, (gap, name) => String(values[name]));
+  return text.replace(/\{(\w+)\}/g, (_gap, name) => String(values[name]));
 }

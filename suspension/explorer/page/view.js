@@ -1,6 +1,7 @@
 // The view: one scene, its panels, the words above them and what one can do with them. What one
 // moves is a model with get, set, on and save_changes: anywidget's, or that of a built page.
 
+import { makeMap } from "./map.js";
 import { readModel } from "./model.js";
 import { PANELS } from "./panels.js";
 import { begin, clamp, plain, show } from "./pen.js";
@@ -23,7 +24,8 @@ function make(parent, tag, name, attributes = {}, text = "") {
   return parent.appendChild(child);
 }
 
-const button = (parent, text, attributes = {}) => make(parent, "button", "", { type: "button", ...attributes }, text);
+const button = (parent, text, attributes = {}) =>
+  make(parent, "button", "", { type: "button", ...attributes }, text);
 
 /** Change a text without making the page look for new elements. */
 function write(element, text) {
@@ -33,11 +35,14 @@ function write(element, text) {
 
 /** Draw the explorer into `el`; what comes back are handles for a page and for tests. */
 export function render(model, el) {
-  const facts = model.get("facts"), data = readModel(facts, model.get("tables"));
-  const sceneAt = makeScenes(data), initial = settingsOf(model);
+  const facts = model.get("facts"),
+    data = readModel(facts, model.get("tables"));
+  const sceneAt = makeScenes(data),
+    initial = settingsOf(model);
   const root = make(el, "div", facts.compact ? "suspension-explorer se-small" : "suspension-explorer");
   const box = root.closest(".suspension-explorer-box") ?? root;
-  const status = make(root, "div", "se-status"), headline = make(status, "strong", "se-headline");
+  const status = make(root, "div", "se-status"),
+    headline = make(status, "strong", "se-headline");
   const spoken = make(root, "div", "se-spoken", { role: "status" });
   const stage = make(root, "div", "se-panels", { "data-view": model.get("view") });
   const panels = facts.panels.map((name) => {
@@ -45,21 +50,53 @@ export function render(model, el) {
     return { ...PANELS[name], canvas, cache: document.createElement("canvas"), size: [0, 0] };
   });
   const tabs = make(root, "div", "se-tabs", { role: "group", "aria-label": "Below the robot" });
-  const bar = make(root, "div", "se-bar"), play = button(bar, "", { class: "se-play" });
-  const moment = make(bar, "input", "se-moment", { type: "range", min: 0, max: 1, step: "any", "aria-label": "Moment" });
-  const clock = make(bar, "span", "se-clock"), tools = make(root, "div", "se-tools");
+  const bar = make(root, "div", "se-bar"),
+    play = button(bar, "", { class: "se-play" });
+  const moment = make(bar, "input", "se-moment", {
+    type: "range",
+    min: 0,
+    max: 1,
+    step: "any",
+    "aria-label": "Moment",
+  });
+  const clock = make(bar, "span", "se-clock"),
+    tools = make(root, "div", "se-tools");
   const details = make(root, "p", "se-details");
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  let scene = null, pinned = null, held = null, frame = 0, timer = 0, playing = null, colours = null;
-  let stale = true, redraw = true;
-  const settled = [], numbers = () => Object.fromEntries(SETTINGS.map((name) => [name, model.get(name)]));
+  let scene = null,
+    pinned = null,
+    mapped = false,
+    map = null,
+    held = null,
+    frame = 0,
+    timer = 0,
+    playing = null,
+    colours = null;
+  let stale = true,
+    redraw = true,
+    looks = 0; // counts changes of colours and pins
+  const settled = [],
+    numbers = () => Object.fromEntries(SETTINGS.map((name) => [name, model.get(name)]));
 
   const compute = () => {
     if (stale) scene = sceneAt(numbers());
     stale = false;
     return scene;
   };
-  const options = () => ({ now: momentOf(scene, model.get("time")), motion: model.get("motion"), pinned, held, scene });
+  const currentMap = () => {
+    const { c, height, sigma } = scene.settings,
+      of = [c, height, sigma].join();
+    if (map?.of !== of) map = { of, picture: makeMap(data, scene.settings) };
+    return map.picture;
+  };
+  const options = () => ({
+    now: momentOf(scene, model.get("time")),
+    motion: model.get("motion"),
+    pinned,
+    held,
+    scene,
+    map: mapped && currentMap(),
+  });
 
   // ---- drawing
 
@@ -67,6 +104,7 @@ export function render(model, el) {
     const style = getComputedStyle(root);
     colours = { font: style.fontFamily };
     for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`).trim();
+    looks++;
     redraw = true;
   };
   const paint = () => {
@@ -74,19 +112,25 @@ export function render(model, el) {
     compute();
     if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
     if (!colours) readColours();
-    const shown = options(), { now, motion } = shown;
+    const shown = options(),
+      { now, motion } = shown;
     shown.ghost = motion === "flying" ? now.linear : scene.flight.events.length ? now.flying : null;
     for (const panel of panels) {
       const [w, h] = panel.size;
       if (!w || !h) continue; // not shown on a phone
-      if (redraw && panel.still) panel.still(begin(panel.cache, w, h, colours), scene, shown);
+      if (redraw && panel.still) {
+        const key = [...panel.key(scene, shown), w, h, devicePixelRatio, looks].join();
+        if (key !== panel.drawn) panel.still(begin(panel.cache, w, h, colours), scene, shown);
+        panel.drawn = key;
+      }
       const pen = begin(panel.canvas, w, h, colours);
       if (panel.still) pen.g.drawImage(panel.cache, 0, 0, w, h);
       panel.live?.(pen, scene, shown);
     }
     if (redraw) speak();
-    redraw = false;
-    write(clock, describeMoment(scene, now, motion));
+    redraw = Boolean(shown.map) && shown.map.work(); // a map grows over several frames
+    if (redraw) schedule();
+    write(clock, describeMoment(now, motion));
     moment.value = model.get("time");
     root.dispatchEvent(new Event("painted", { bubbles: true })); // for those who measure
   };
@@ -114,8 +158,12 @@ export function render(model, el) {
     }
   };
   const describeSpeeds = () => {
-    const { critical, kept } = scene.curve, speeds = critical.map((v) => show(v)).join(", ");
-    return `Contact is ${kept ? "kept" : "lost"} at the lowest speed` + (speeds ? `, and the verdict turns at ${speeds} m/s.` : " and at every other.");
+    const { critical, kept } = scene.curve,
+      speeds = critical.map((v) => show(v)).join(", ");
+    return (
+      `Contact is ${kept ? "kept" : "lost"} at the lowest speed` +
+      (speeds ? `, and the verdict turns at ${speeds} m/s.` : " and at every other.")
+    );
   };
   const announceLater = () => {
     clearTimeout(timer);
@@ -136,7 +184,8 @@ export function render(model, el) {
     const changes = {};
     for (const name of NUMBERS) {
       const value = others[name];
-      if (typeof value === "number" && Number.isFinite(value)) changes[name] = clamp(value, ...data.ranges[name].slice(0, 2));
+      if (typeof value === "number" && Number.isFinite(value))
+        changes[name] = clamp(value, ...data.ranges[name].slice(0, 2));
     }
     const index = data.schemes.findIndex(({ name }) => name.toLowerCase() === String(scheme).toLowerCase());
     if (index >= 0) changes.scheme_index = index;
@@ -168,7 +217,14 @@ export function render(model, el) {
   });
   moment.addEventListener("input", () => set({ time: Number(moment.value) }));
   moment.addEventListener("keydown", (event) => {
-    const way = { ArrowRight: 0.005, ArrowUp: 0.005, ArrowLeft: -0.005, ArrowDown: -0.005, PageUp: 0.05, PageDown: -0.05 }[event.key];
+    const way = {
+      ArrowRight: 0.005,
+      ArrowUp: 0.005,
+      ArrowLeft: -0.005,
+      ArrowDown: -0.005,
+      PageUp: 0.05,
+      PageDown: -0.05,
+    }[event.key];
     if (!way) return;
     event.preventDefault();
     set({ time: clamp(model.get("time") + way, 0, 1) });
@@ -177,10 +233,11 @@ export function render(model, el) {
   // ---- grabbing things in the pictures
 
   for (const panel of panels) {
-    const { canvas } = panel, at = ({ clientX, clientY }) => {
-      const { left, top } = canvas.getBoundingClientRect();
-      return [clientX - left, clientY - top];
-    };
+    const { canvas } = panel,
+      at = ({ clientX, clientY }) => {
+        const { left, top } = canvas.getBoundingClientRect();
+        return [clientX - left, clientY - top];
+      };
     let hold = null;
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button || !scene) return;
@@ -193,7 +250,8 @@ export function render(model, el) {
     });
     canvas.addEventListener("pointermove", (event) => {
       if (hold) return move(hold.to(...at(event)));
-      if (scene && event.pointerType === "mouse") canvas.style.cursor = panel.grab(...at(event), options())?.cursor.replace("grabbing", "grab") ?? "";
+      if (scene && event.pointerType === "mouse")
+        canvas.style.cursor = panel.grab(...at(event), options())?.cursor.replace("grabbing", "grab") ?? "";
     });
     const move = ({ time, ...others }) => {
       stopPlaying();
@@ -207,7 +265,8 @@ export function render(model, el) {
       canvas.style.cursor = "";
       schedule();
     };
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) canvas.addEventListener(name, release);
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+      canvas.addEventListener(name, release);
   }
   const stopPlaying = () => playing && stop();
 
@@ -215,36 +274,68 @@ export function render(model, el) {
 
   function addTools() {
     if (facts.compact) return;
-    for (const [view, text] of [["speeds", "Speeds"], ["forces", "Forces"], ["stability", "Stability"]]) {
+    for (const [view, text] of [
+      ["speeds", "Speeds"],
+      ["forces", "Forces"],
+      ["stability", "Stability"],
+    ]) {
       button(tabs, text, { "data-view": view }).addEventListener("click", () => set({ view }));
     }
     listeners.view();
     const motions = make(tools, "div", "se-choice", { role: "group", "aria-label": "After lift-off" });
-    for (const [motion, text] of [["linear", "Linear"], ["flying", "Flying"]]) {
-      const choice = button(motions, text, { "data-motion": motion, "aria-pressed": String(model.get("motion") === motion) });
+    for (const [motion, text] of [
+      ["linear", "Linear"],
+      ["flying", "Flying"],
+    ]) {
+      const choice = button(motions, text, {
+        "data-motion": motion,
+        "aria-pressed": String(model.get("motion") === motion),
+      });
       choice.addEventListener("click", () => set({ motion }));
     }
-    const presets = make(tools, "div", "se-presets", { role: "group", "aria-label": "Speeds of the problem set" });
-    for (const v of data.asked) button(presets, `${plain(v)} m/s`).addEventListener("click", () => apply({ v, time: null }));
-    for (const [text, settings] of data.presets) button(presets, text).addEventListener("click", () => apply({ ...initial, time: null, ...settings }));
+    const presets = make(tools, "div", "se-presets", {
+      role: "group",
+      "aria-label": "Speeds of the problem set",
+    });
+    for (const v of data.asked)
+      button(presets, `${plain(v)} m/s`).addEventListener("click", () => apply({ v, time: null }));
+    for (const [text, settings] of data.presets)
+      button(presets, text).addEventListener("click", () => apply({ ...initial, time: null, ...settings }));
     const more = make(tools, "div", "se-more", { role: "group", "aria-label": "This picture" });
     const pin = button(more, "Pin to compare", { "aria-pressed": "false" });
     pin.addEventListener("click", () => {
       pinned = pinned ? null : snapshot();
       pin.setAttribute("aria-pressed", String(Boolean(pinned)));
       write(pin, pinned ? `Unpin ${plain(pinned.v, 3)} m/s` : "Pin to compare");
+      looks++;
       redraw = true;
       schedule();
     });
     button(more, "Reset").addEventListener("click", () => {
       if (pinned) pin.click();
+      if (mapped) over.click();
       stopPlaying();
       apply(initial);
     });
+    const over = button(more, "Map over v and k", { "aria-pressed": "false" });
+    over.addEventListener("click", () => {
+      mapped = !mapped;
+      over.setAttribute("aria-pressed", String(mapped));
+      looks++;
+      redraw = true;
+      schedule();
+    });
     const menu = make(more, "details", "se-menu");
     make(menu, "summary", "", {}, "Take away");
-    const list = make(menu, "div", "se-list"), code = make(list, "pre", "se-python", { tabindex: 0, "aria-label": "These settings in Python" });
-    button(list, "Picture (PNG)").addEventListener("click", () => savePicture(panels.map(({ canvas }) => canvas), headline.textContent, colours));
+    const list = make(menu, "div", "se-list"),
+      code = make(list, "pre", "se-python", { tabindex: 0, "aria-label": "These settings in Python" });
+    button(list, "Picture (PNG)").addEventListener("click", () =>
+      savePicture(
+        panels.map(({ canvas }) => canvas),
+        headline.textContent,
+        colours,
+      ),
+    );
     button(list, "Numbers (CSV)").addEventListener("click", () => saveTable(scene, model.get("motion")));
     const copy = button(list, "Copy the Python lines");
     copy.addEventListener("click", async () => {
@@ -256,19 +347,26 @@ export function render(model, el) {
         write(copy, "Selected: copy it with your keys");
       }
     });
-    const fill = () => menu.open && write(code, pythonOf(data, numbers(), model.get("scheme_index"), model.get("motion")));
+    const fill = () =>
+      menu.open && write(code, pythonOf(data, numbers(), model.get("scheme_index"), model.get("motion")));
     menu.addEventListener("toggle", fill);
     settled.push(fill, () => write(copy, "Copy the Python lines"));
     if (document.fullscreenEnabled) {
       const full = button(more, "Full screen");
-      full.addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : box.requestFullscreen()));
+      full.addEventListener("click", () =>
+        document.fullscreenElement ? document.exitFullscreen() : box.requestFullscreen(),
+      );
     }
   }
   /** What is kept of a run to compare others with. */
   function snapshot() {
-    const { run, flight, v, curve, robot, dt } = scene, kept = model.get("motion") === "flying" || !run ? flight : run;
+    const { run, flight, v, curve, robot, dt } = scene,
+      kept = model.get("motion") === "flying" || !run ? flight : run;
     return {
-      v, dt: kept.dt, N: kept.N.map((N) => N.slice(0, kept.J + 1)), least: curve.least.map((N) => N.slice()),
+      v,
+      dt: kept.dt,
+      N: kept.N.map((N) => N.slice(0, kept.J + 1)),
+      least: curve.least.map((N) => N.slice()),
       z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
     };
   }
@@ -285,7 +383,10 @@ export function render(model, el) {
       const view = model.get("view");
       stage.dataset.view = view;
       for (const tab of tabs.children) {
-        tab.setAttribute("aria-pressed", String(tab.dataset.view === view || (view === "robot" && tab.dataset.view === "forces")));
+        tab.setAttribute(
+          "aria-pressed",
+          String(tab.dataset.view === view || (view === "robot" && tab.dataset.view === "forces")),
+        );
       }
     },
     motion() {
@@ -320,17 +421,34 @@ export function render(model, el) {
   for (const { canvas } of panels) sizes.observe(canvas);
   calm.addEventListener("change", stop);
   stop();
-  root.trajectory = () => { // for those who compare: everything shown, in plain arrays
-    const { run, flight, curve, truth, settings } = compute(), copy = (rows, J) => rows.map((row) => [...row.subarray(0, J + 1)]);
+  root.trajectory = () => {
+    // for those who compare: everything shown, in plain arrays
+    const { run, flight, curve, truth, settings } = compute(),
+      copy = (rows, J) => rows.map((row) => [...row.subarray(0, J + 1)]);
     return {
-      ...settings, W: run && copy(run.W, run.J), N: run && copy(run.N, run.J), verdict: run?.verdict, exact: truth.verdict,
-      speeds: [...curve.speeds], least: curve.least.map((N) => [...N]), critical: curve.critical,
-      events: flight.events, highest: flight.gaps.map((gap) => gap.subarray(0, flight.J + 1).reduce((a, b) => Math.max(a, b), 0)), flightStep: flight.dt,
+      ...settings,
+      W: run && copy(run.W, run.J),
+      N: run && copy(run.N, run.J),
+      verdict: run?.verdict,
+      exact: truth.verdict,
+      speeds: [...curve.speeds],
+      least: curve.least.map((N) => [...N]),
+      critical: curve.critical,
+      events: flight.events,
+      highest: flight.gaps.map((gap) => gap.subarray(0, flight.J + 1).reduce((a, b) => Math.max(a, b), 0)),
+      flightStep: flight.dt,
     };
   };
-  root.modesAt = () => { // where the modes are drawn, in fractions of the panel, for tests that drag
-    const { frame, size: [w, h] } = panels.find(({ name }) => name === "stability");
-    return compute().robot.modes.map(([re, im]) => [frame.px(re * scene.dt) / w, frame.py(im * scene.dt) / h]);
+  root.modesAt = () => {
+    // where the modes are drawn, in fractions of the panel, for tests that drag
+    const {
+      frame,
+      size: [w, h],
+    } = panels.find(({ name }) => name === "stability");
+    return compute().robot.modes.map(([re, im]) => [
+      frame.px(re * scene.dt) / w,
+      frame.py(im * scene.dt) / h,
+    ]);
   };
   const destroy = () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(`change:${name}`, listener);
@@ -342,13 +460,20 @@ export function render(model, el) {
     cancelAnimationFrame(frame);
     playing = null;
   };
-  return { apply, destroy, settings: () => settingsOf(model), onSettled: (listener) => settled.push(listener) };
+  return {
+    apply,
+    destroy,
+    settings: () => settingsOf(model),
+    onSettled: (listener) => settled.push(listener),
+  };
 }
 
 /** Kept and lost speeds as the background of a slider. */
 function bandsOf({ critical, kept }, [low, high]) {
   const place = (v) => `${((100 * Math.log(v / low)) / Math.log(high / low)).toFixed(2)}%`;
   const edges = ["0%", ...critical.map(place), "100%"];
-  const stops = edges.slice(1).map((edge, i) => `var(--se-${kept === (i % 2 === 0) ? "region" : "alarm"}) ${edges[i]} ${edge}`);
+  const stops = edges
+    .slice(1)
+    .map((edge, i) => `var(--se-${kept === (i % 2 === 0) ? "region" : "alarm"}) ${edges[i]} ${edge}`);
   return `linear-gradient(to right, ${stops.join(", ")})`;
 }
