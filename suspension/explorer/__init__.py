@@ -1,106 +1,142 @@
-"""Live sliders: the robot, the forces and the stability region, with a kernel or without.
+"""Live sliders: the robot, its forces, every speed, the stability region; with or without Python.
 
-Python computes the matrices and the road, the browser iterates them and draws. So the built page
-needs no kernel and holds no physics: any `Robot` and any road work in it, and what it shows is
-what `suspension.simulation.simulate` computes.
+Python hands over the model, the methods and the road as numbers; the browser does linear algebra
+with them and draws. So the built page needs no kernel and holds no physics: any `Robot` and any
+road work in it, and what it shows is what `suspension.simulation.simulate` computes.
 """
 
+import base64
 import json
+from dataclasses import fields
 from pathlib import Path
 
 import anywidget
 import ipywidgets
-import numpy as np
 import traitlets
+from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
-from suspension.explorer.controls import controls
-from suspension.explorer.settings import DTS, MOMENTS, SCHEMES, VIEWS, VMAX, VMIN
-from suspension.explorer.still import still
-from suspension.explorer.tables import (
-    ROBOT_FIELDS,
-    region,
-    road_table,
-    robot_table,
-    step_fields,
-    step_table,
-    vary_stiffness,
+from suspension.explorer.controls import CONTROLS, controls, native
+from suspension.explorer.family import Family
+from suspension.explorer.settings import (
+    ASKED,
+    COURSE,
+    CURVE,
+    DTS,
+    MOTIONS,
+    REFERENCE,
+    SCHEMES,
+    SPRING_END,
+    VIEWS,
+    VMAX,
 )
+from suspension.explorer.still import still
+from suspension.explorer.tables import scheme_facts, shape_of
+from suspension.road import FlatRoad
 from suspension.robot import Robot
-from suspension.schemes import RK4
+from suspension.schemes import RK4, Scheme
 from suspension.simulation import simulate
 
-__all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore"]
+__all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore", "page_script", "page_style"]
 
 PAGE = Path(__file__).parent / "page"
-WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+PANELS = ("robot", "speeds", "forces", "stability")
+TRAITS = (*(control.trait for control in CONTROLS), "scheme_index", "time", "motion")
 
 
 class Explorer(anywidget.AnyWidget):
-    """The linked picture at the current settings.
+    """The linked pictures at the current settings.
 
     Attributes
     ----------
-    v : float
-        Speed, m/s.
-    dt_index, k_index, scheme_index : int
-        Places in `DTS`, `robots` and `SCHEMES`.
-    time : int
-        The moment shown, in thousandths of the run.
+    v, dt : float
+        Speed, m/s, and time step, s.
+    k, c : float
+        Stiffness, N/m, and damping coefficient, N s/m, of the rear wheel; those of the front wheel
+        keep their ratio to it.
+    height, sigma : float
+        The bump's height and width, m; of a road that is no `GaussianBump` they say nothing.
+    scheme_index : int
+        Place in `schemes`.
+    time : float
+        The moment shown, a fraction of the run.
+    motion : {"linear", "flying"}
+        What is drawn in front: the model of the problem, or wheels that leave the ground.
     view : str
-        The panel drawn largest: "forces", "stability" or "robot".
-    robots : list of Robot
-        The given robot with every stiffness that the slider offers.
+        The panel drawn largest.
     """
 
-    _esm = bundle(PAGE, "view")
+    _esm = bundle(PAGE, "widget")
     _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
 
     v = traitlets.Float(1.2).tag(sync=True)
-    dt_index = traitlets.Int(0).tag(sync=True)
-    k_index = traitlets.Int(0).tag(sync=True)
+    dt = traitlets.Float(0.001).tag(sync=True)
+    k = traitlets.Float(800.0).tag(sync=True)
+    c = traitlets.Float(1.5).tag(sync=True)
+    height = traitlets.Float(1.0).tag(sync=True)
+    sigma = traitlets.Float(1.0).tag(sync=True)
     scheme_index = traitlets.Int(0).tag(sync=True)
-    time = traitlets.Int(0).tag(sync=True)
+    time = traitlets.Float(0.0).tag(sync=True)
+    motion = traitlets.Unicode("linear").tag(sync=True)
     view = traitlets.Unicode("forces").tag(sync=True)
     facts = traitlets.Dict().tag(sync=True)
     tables = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, robots, road, distance, **settings):
-        self.robots, self.road, self.distance = robots, road, distance
+    def __init__(
+        self, family, schemes, distance, *, compact=False, wide=False, presets=(), **settings
+    ):
+        self.family, self.schemes, self.distance = family, tuple(schemes), distance
+        self.compact, self.wide = compact, wide
+        self.sliders = ("v",) if compact else tuple(control.trait for control in CONTROLS)
+        robot = family.robot
         # A run may end one step past `distance`, and the front wheel is further ahead.
-        start, stop = -robots[0].L1, distance + VMAX * DTS[0] + robots[0].L2
-        tables = {"road": road_table(road, start, stop), "robots": robot_table(robots)}
-        tables |= {scheme.name: step_table(scheme, robots, DTS) for scheme in SCHEMES}
-        # What every run is compared with: the highest order that is stable at the finest step.
-        stable = [scheme for scheme in SCHEMES if tables[scheme.name][:, -1, -1].all()]
+        start, stop = -robot.L1, distance + VMAX * DTS[-1] + robot.L2
+        frame, table = shape_of(family.road, start, stop)
         super().__init__(
             facts={
                 "distance": distance,
-                "wheels": [start, robots[0].L2],
-                "road": [start, (stop - start) / len(tables["road"]), len(tables["road"][0])],
+                "wheels": robot.arms.tolist(),
+                "model": family.model(),
+                "road": frame,
+                # The size of the road's smallest feature, in units of its width.
+                "feature": 1.0 if family.has_bump else getattr(family.road, "sigma", 0.02),
+                "ranges": {
+                    name: [reach.low, reach.high, reach.logarithmic]
+                    for name, reach in family.ranges.items()
+                },
+                "own": family.own,
+                "hasBump": family.has_bump,
                 "dts": DTS,
-                "finest": SCHEMES.index(max(stable, key=lambda scheme: scheme.order)),
-                "moments": MOMENTS,
-                "robotFields": ROBOT_FIELDS,
-                "schemes": [
-                    {
-                        "name": scheme.name,
-                        "c": np.unique(scheme.c).tolist(),
-                        "region": region(scheme),
-                        "fields": step_fields(scheme),
-                    }
-                    for scheme in SCHEMES
-                ],
+                "asked": ASKED,
+                "springEnd": SPRING_END,
+                "schemes": [scheme_facts(scheme) for scheme in self.schemes],
+                "reference": scheme_facts(REFERENCE),
+                "curveScheme": scheme_facts(CURVE),
+                "panels": ["robot", "speeds"] if compact else list(PANELS),
+                "sliders": list(self.sliders),
+                "compact": compact,
+                "presets": [list(preset) for preset in presets],
+                "python": _python(family, self.schemes, distance),
             },
-            tables={name: table.astype("<f8").tobytes() for name, table in tables.items()},
+            tables={"road": table.astype("<f8").tobytes()},
             **settings,
         )
 
     @property
     def robot(self):
-        """The robot with the current stiffness."""
-        return self.robots[self.k_index]
+        """The robot with the current springs and dampers."""
+        return self.family.robot_at(self.k, self.c)
+
+    @property
+    def road(self):
+        """The road with the current bump."""
+        return self.family.road_at(self.height, self.sigma)
+
+    @property
+    def scheme(self):
+        """The current scheme."""
+        return self.schemes[self.scheme_index]
 
     def trajectory(self):
         """The run at the current settings, as Python computes it.
@@ -113,16 +149,17 @@ class Explorer(anywidget.AnyWidget):
             self.robot,
             self.road,
             v=self.v,
-            dt=DTS[self.dt_index],
+            dt=self.dt,
             tfinal=self.distance / self.v,
-            scheme=SCHEMES[self.scheme_index],
+            scheme=self.scheme,
         )
 
 
 class ExplorerBox(ipywidgets.VBox):
     """The sliders above the `Explorer` they move; ``box.explorer`` is the latter.
 
-    A page shows a still picture of the same settings until its scripts run, or where they do not.
+    As HTML it is the same controls without a kernel, and a still picture of the same settings for
+    readers without scripts.
     """
 
     def __init__(self, explorer, sliders):
@@ -131,38 +168,95 @@ class ExplorerBox(ipywidgets.VBox):
         self.add_class("suspension-explorer-box")
 
     def _repr_mimebundle_(self, **kwargs):
-        bundle = super()._repr_mimebundle_(**kwargs)
-        view = json.dumps(bundle[WIDGET_VIEW])
-        bundle["text/html"] = f'{still(self.explorer)}<script type="{WIDGET_VIEW}">{view}</script>'
-        return bundle
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": self.html()}
+
+    def show(self, name):
+        """Display the explorer under a name; ``{explorer} name`` shows it on another page."""
+        display(self, metadata={"scrapbook": {"name": name, "mime_prefix": ""}})
+
+    def html(self):
+        """The explorer as HTML; `page_script` brings it to life."""
+        explorer = self.explorer
+        state = {name: getattr(explorer, name) for name in (*TRAITS, "view", "facts")}
+        state["tables"] = {
+            name: base64.b64encode(table).decode() for name, table in explorer.tables.items()
+        }
+        text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
+        kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
+        return (
+            f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
+            f'<div class="se-controls">{native(explorer)}</div>'
+            f'<div class="se-place">{still(explorer)}</div></div>'
+            f'<script type="application/json" class="se-state">{text}</script></div>'
+        )
+
+
+def page_script():
+    """The script, a classic one, that brings every explorer of a page to life."""
+    return f"(() => {{\n{bundle(PAGE, 'page')}}})();\n"
+
+
+def page_style():
+    """The style sheet of a page with explorers."""
+    return Explorer._css
 
 
 def explore(
-    robot, road, *, v=1.2, dt=0.001, k=None, scheme=RK4, time=None, view="forces", distance=1.25
+    robot,
+    road,
+    *,
+    v=1.2,
+    dt=0.001,
+    k=None,
+    c=None,
+    height=None,
+    sigma=None,
+    scheme=RK4,
+    time=None,
+    motion="linear",
+    view="forces",
+    distance=COURSE,
+    schemes=SCHEMES,
+    presets=(),
+    compact=False,
+    wide=False,
 ):
-    """Sliders for speed, step, stiffness and scheme, and a picture that follows them.
+    """Sliders for speed, step, spring, damper, bump and scheme, and pictures that follow them.
 
     Parameters
     ----------
     robot : Robot
-        Its own stiffness is marked on the slider; the others keep the ratio k2 / k1.
+        Its own springs and dampers are marked; others keep the ratios k2 / k1 and c2 / c1.
     road : callable
-        ``road(x) -> (H, dHdx)``.
+        ``road(x) -> (H, dHdx)``; the bump of a `GaussianBump` can be changed.
     v : float
         Speed to start with, m/s, 0.1 to 25.
     dt : float
-        Time step to start with, s, one of `DTS`.
-    k : float, optional
-        Rear stiffness to start with, N/m; the slider's nearest is taken, the robot's own if None.
+        Time step to start with, s, 0.25 to 200 ms.
+    k, c : float, optional
+        Rear stiffness, N/m, and damping, N s/m, to start with; the robot's own if None.
+    height, sigma : float, optional
+        Height and width of the bump to start with, m; its own if None.
     scheme : Scheme
-        One of `SCHEMES`.
+        What to start with: any scheme, or the name of one of `schemes`.
     time : float, optional
         The moment to show first, a fraction of the run; that of the loss of contact, or of the
         smallest force, if None.
-    view : {"forces", "stability", "robot"}
+    motion : {"linear", "flying"}
+        What is drawn in front: the linear model, or wheels that leave the ground.
+    view : {"forces", "stability", "robot", "speeds"}
         The panel drawn largest.
     distance : float
         How far the robot drives, m.
+    schemes : sequence of Scheme
+        What can be chosen; `scheme` is added if it is not among them.
+    presets : sequence of (label, settings)
+        More buttons that set the picture: settings is a dict of the names above, with the name of
+        a scheme as "scheme".
+    compact : bool
+        Only the robot, the curve over all speeds, and the slider for the speed.
+    wide : bool
+        In a built page, use the window's whole width.
 
     Returns
     -------
@@ -172,29 +266,97 @@ def explore(
     Raises
     ------
     TypeError
-        If `robot` is not a Robot, or `road` cannot be called.
+        If `robot` is not a Robot, `road` cannot be called, or a scheme is not a Scheme.
     ValueError
         If an argument is not in its range.
     """
     _checks.instance("robot", robot, Robot)
-    robots, own = vary_stiffness(robot)
-    k = robot.k1 if k is None else _checks.positive("k", k)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
+    family = Family(robot, road)
+    schemes = [_checks.instance("schemes", known, Scheme) for known in schemes]
+    if isinstance(scheme, Scheme) and scheme not in schemes:
+        schemes.append(scheme)
+    names = [known.name for known in schemes]
+    chosen = getattr(scheme, "name", scheme)
+    settings = {"v": v, "dt": dt, "k": k, "c": c, "height": height, "sigma": sigma}
+    for name, value in settings.items():
+        settings[name] = _in_range(name, family.own[name] if value is None else value, family)
+    if not family.has_bump and not (height is None and sigma is None):
+        raise ValueError("height and sigma must be left out, for the road is no GaussianBump")
     if time is not None:
         time = _checks.number("time", time, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
-    names = [known.name for known in SCHEMES]
     explorer = Explorer(
-        robots,
-        road,
+        family,
+        schemes,
         _checks.positive("distance", distance),
-        v=_checks.number("v", v, f"{VMIN} to {VMAX} m/s", lambda v: VMIN <= v <= VMAX),
-        dt_index=DTS.index(_checks.one_of("dt", dt, DTS)),
-        k_index=int(np.argmin([abs(other.k1 - k) for other in robots])),
-        scheme_index=names.index(_checks.one_of("scheme", getattr(scheme, "name", scheme), names)),
+        scheme_index=names.index(_checks.one_of("scheme", chosen, names)),
+        motion=_checks.one_of("motion", motion, MOTIONS),
         view=_checks.one_of("view", view, VIEWS),
+        presets=presets,
+        compact=bool(compact),
+        wide=bool(wide),
+        **settings,
     )
     if time is None:
         run = explorer.trajectory()
         t = run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
         time = min(t * v / distance, 1)
-    explorer.time = round(MOMENTS * time)
-    return ExplorerBox(explorer, controls(explorer, own))
+    explorer.time = float(time)
+    return ExplorerBox(explorer, controls(explorer))
+
+
+def _in_range(name, value, family):
+    """A setting as a float, checked against what its slider offers."""
+    reach = family.ranges[name]
+    allowed = f"{reach.low:g} to {reach.high:g}"
+    return _checks.number(name, value, allowed, lambda number: number in reach)
+
+
+def _python(family, schemes, distance):
+    """What the page needs to write its settings as lines of Python: text with gaps to fill.
+
+    Each gap has its slider and the factor on it; only `suspension`'s front door is used.
+    """
+    gaps = {name: [on, ratio] for name, (on, ratio) in family.ratios.items()}
+    others = ", ".join(
+        f"{field.name}={getattr(family.robot, field.name)!r}"
+        for field in fields(Robot)
+        if field.init and field.name not in gaps
+    )
+    lines = ["import suspension", ""]
+    lines += [
+        "robot = suspension.Robot(",
+        f"    k1={{k1}}, k2={{k2}}, c1={{c1}}, c2={{c2}}, {others}",
+        ")",
+    ]
+    if family.has_bump:
+        gaps |= {"height": ["height", 1.0], "sigma": ["sigma", 1.0]}
+        road = "suspension.GaussianBump(height={height}, sigma={sigma}, "
+        lines.append(f"road = {road}centre={family.road.centre!r})")
+    elif isinstance(family.road, FlatRoad):
+        lines.append("road = suspension.FlatRoad()")
+    else:
+        lines.append("# road: the function of x that this page defines")
+    lines += [
+        "run = suspension.simulate(",
+        f"    robot, road, v={{v}}, dt={{dt}}, tfinal={distance!r} / {{v}}, scheme={{scheme}}",
+        ")",
+    ]
+    flight = f"flight = suspension.fly(robot, road, v={{v}}, tfinal={distance!r} / {{v}})"
+    return {
+        "text": "\n".join(lines),
+        "flight": flight,
+        "gaps": gaps,
+        "schemes": [_constructor(scheme) for scheme in schemes],
+    }
+
+
+def _constructor(scheme):
+    """A scheme as Python writes it."""
+    constant = scheme.name.upper().replace("-", "_").replace(" ", "_")
+    if scheme in SCHEMES:
+        return f"suspension.{constant}"
+    return (
+        f"suspension.Scheme({scheme.name!r}, {scheme.order}, a={scheme.a.tolist()}, "
+        f"b={scheme.b.tolist()}, c={scheme.c.tolist()})"
+    )

@@ -1,69 +1,99 @@
-"""The sliders and buttons above the picture."""
+"""The sliders and buttons, as ipywidgets, and the same ones as HTML for a page without a kernel."""
+
+from html import escape
+from typing import NamedTuple
 
 import ipywidgets
 import numpy as np
 
-from suspension.explorer.settings import DTS, MOMENTS, SCHEMES, VMAX, VMIN
-
-__all__ = ["controls"]
+__all__ = ["CONTROLS", "Control", "controls", "native"]
 
 
-def controls(explorer, own):
+class Control(NamedTuple):
+    """A slider: the trait it moves, what it is called, and how many units its number counts."""
+
+    trait: str
+    label: str
+    unit: str
+    scale: float  # units in one of the trait's
+    bump_only: bool = False
+
+
+CONTROLS = (
+    Control("v", "Speed v", "m/s", 1),
+    Control("dt", "Step Δt", "ms", 1000),
+    Control("k", "Stiffness k", "N/m", 1),
+    Control("c", "Damping c", "N s/m", 1),
+    Control("height", "Bump height", "mm", 1000, bump_only=True),
+    Control("sigma", "Bump width σ", "mm", 1000, bump_only=True),
+)
+
+
+def offered(explorer):
+    """The controls that an explorer has: none for a bump on a road that has none to change."""
+    chosen = [control for control in CONTROLS if control.trait in explorer.sliders]
+    return [control for control in chosen if explorer.family.has_bump or not control.bump_only]
+
+
+def controls(explorer):
     """The controls of an `Explorer`, joined to its traits; without a kernel they still are.
-
-    Parameters
-    ----------
-    explorer : Explorer
-    own : int
-        The place of the robot's own stiffness.
 
     Returns
     -------
     ipywidgets.Box
     """
-    speed = ipywidgets.FloatLogSlider(
-        explorer.v,
-        min=np.log10(VMIN),
-        max=np.log10(VMAX),
-        step=0,  # any other would round a typed value
-        readout_format=".3g",
-        description="Speed v (m/s)",
-    )
-    speed.add_class("se-typed")
-    step = ipywidgets.SelectionSlider(
-        options=[f"{1000 * dt:g}" for dt in DTS],
-        index=explorer.dt_index,
-        description="Step Δt (ms)",
-    )
-    stiffness = ipywidgets.SelectionSlider(
-        options=_stiffnesses(explorer.robots, own),
-        index=explorer.k_index,
-        description="Stiffness k (N/m)",
-    )
-    scheme = ipywidgets.ToggleButtons(
-        options=[scheme.name for scheme in SCHEMES],
+    joined = []
+    for control in offered(explorer):
+        joined.append((_slider(explorer, control), "value", control.trait))
+    schemes = ipywidgets.ToggleButtons(
+        options=[scheme.name for scheme in explorer.schemes],
         index=explorer.scheme_index,
         description="Scheme",
     )
-    moment = ipywidgets.IntSlider(explorer.time, max=MOMENTS, readout=False, description="Moment")
-    joined = [
-        (speed, "value", "v"),
-        (step, "index", "dt_index"),
-        (stiffness, "index", "k_index"),
-        (scheme, "index", "scheme_index"),
-        (moment, "value", "time"),
-    ]
-    for control, name, trait in joined:
-        control.layout.width = "auto"
-        ipywidgets.jslink((control, name), (explorer, trait))
-    return ipywidgets.Box([control for control, _, _ in joined])
+    joined.append((schemes, "index", "scheme_index"))
+    for widget, name, trait in joined:
+        widget.layout.width = "auto"
+        ipywidgets.jslink((widget, name), (explorer, trait))
+    return ipywidgets.Box([widget for widget, _, _ in joined])
 
 
-def _stiffnesses(robots, own):
-    """What the slider calls each robot's springs, N/m."""
-    names = []
-    for robot in robots:
-        springs = [robot.k1] if robot.k1 == robot.k2 else [robot.k1, robot.k2]
-        names.append(" and ".join(f"{k:.0f}" for k in springs))
-    names[own] += " (fitted)"
-    return names
+def _slider(explorer, control):
+    """One slider; ipywidgets shows a value in the unit of the trait."""
+    reach = explorer.family.ranges[control.trait]
+    value = getattr(explorer, control.trait)
+    unit = {"dt": "s", "height": "m", "sigma": "m"}.get(control.trait, control.unit)
+    options = {"description": f"{control.label} ({unit})", "readout_format": ".3g"}
+    if reach.logarithmic:
+        low, high = np.log10(reach.low), np.log10(reach.high)
+        # A step of 0 leaves a typed value as it is; any other would round it.
+        return ipywidgets.FloatLogSlider(value, min=low, max=high, step=0, **options)
+    step = (reach.high - reach.low) / 1000
+    return ipywidgets.FloatSlider(value, min=reach.low, max=reach.high, step=step, **options)
+
+
+def native(explorer):
+    """The same controls as HTML: a range and a number for each slider, buttons for the schemes.
+
+    The page's script fills in the values and moves them; without it they are not shown.
+    """
+    rows = []
+    for control in offered(explorer):
+        name = f"{control.label} ({control.unit})"
+        rows.append(
+            f'<div class="se-control" data-trait="{control.trait}">'
+            f'<span class="se-name">{escape(control.label)}</span>'
+            f'<span class="se-number"><input type="text" inputmode="decimal" autocomplete="off" '
+            f'aria-label="{escape(name)}, typed"> {escape(control.unit)}</span>'
+            f'<input type="range" min="0" max="1" step="any" aria-label="{escape(name)}"></div>'
+        )
+    if explorer.compact:
+        return "".join(rows)
+    buttons = "".join(
+        f'<button type="button" data-index="{i}">{escape(scheme.name)}</button>'
+        for i, scheme in enumerate(explorer.schemes)
+    )
+    rows.append(
+        '<div class="se-choice" data-trait="scheme_index" role="group" aria-label="Scheme">'
+        f"{buttons}</div>"
+    )
+    return "".join(rows)

@@ -1,12 +1,52 @@
-"""What the sliders offer, and where they begin and end."""
+"""What the explorer offers, where its sliders begin and end, and how it is judged."""
 
-from suspension.schemes import CRANK_NICOLSON, RK4
+import numpy as np
 
-__all__ = ["DTS", "MOMENTS", "SCHEMES", "VIEWS", "VMAX", "VMIN"]
+from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
 
-SCHEMES = (CRANK_NICOLSON, RK4)
-# Seconds, whole multiples of the last one: every run can be compared with it sample by sample.
-DTS = (0.2, 0.1, 0.08, 0.07, 0.06, 0.05, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005, 0.00025)
+__all__ = [
+    "ASKED",
+    "COURSE",
+    "CURVE",
+    "DTS",
+    "MOTIONS",
+    "REFERENCE",
+    "SCHEMES",
+    "SPRING_END",
+    "VIEWS",
+    "VMAX",
+    "VMIN",
+]
+
+SCHEMES = (EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4)
 VMIN, VMAX = 0.1, 25.0  # m/s
-MOMENTS = 1000  # stops of the time slider
-VIEWS = ("forces", "stability", "robot")
+ASKED = (0.25, 1.2, 5.0, 10.0)  # the speeds of the problem's Questions 2 and 3, m/s
+COURSE = 1.25  # m, how far the problem's runs go
+# Round steps, s, fine to coarse: an arrow key goes from one to the next, any between can be set.
+DTS = (0.00025, 0.0005, 0.001, 0.002, 0.0025, 0.005, 0.01, 0.02, 0.05, 0.06, 0.07, 0.08, 0.1, 0.2)
+MOTIONS = ("linear", "flying")
+VIEWS = ("forces", "stability", "robot", "speeds")
+SPRING_END = 0.0165  # m, the largest compression that was measured (`springs.fit_spring`)
+
+# What every run is judged by: Gauss's methods, stable at any step; the one with two stages for the
+# curve over all speeds.
+_root = np.sqrt(3) / 6
+CURVE = Scheme(
+    "Gauss-Legendre (4)",
+    4,
+    a=[[1 / 4, 1 / 4 - _root], [1 / 4 + _root, 1 / 4]],
+    b=[1 / 2, 1 / 2],
+    c=[1 / 2 - _root, 1 / 2 + _root],
+)
+_root = np.sqrt(15)
+REFERENCE = Scheme(
+    "Gauss-Legendre",
+    6,
+    a=[
+        [5 / 36, 2 / 9 - _root / 15, 5 / 36 - _root / 30],
+        [5 / 36 + _root / 24, 2 / 9, 5 / 36 - _root / 24],
+        [5 / 36 + _root / 30, 2 / 9 + _root / 15, 5 / 36],
+    ],
+    b=[5 / 18, 4 / 9, 5 / 18],
+    c=[1 / 2 - _root / 10, 1 / 2, 1 / 2 + _root / 10],
+)

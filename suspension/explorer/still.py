@@ -7,49 +7,99 @@ from urllib.parse import quote
 import matplotlib.pyplot as plt
 import numpy as np
 
-from suspension.explorer.settings import MOMENTS
-from suspension.figures import RobotDrawing, plot_forces, plot_stability
+from suspension.contact import margin
+from suspension.critical import zeros
+from suspension.explorer.settings import ASKED, COURSE, VMAX, VMIN
+from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
 from suspension.forces import WHEEL
+from suspension.least_force import minima
 from suspension.report.words import quantity
 
 __all__ = ["still"]
 
-PATH = re.compile(r'(?<= d=")[^"]*')  # the points of a line; a digit of a scale is dear
-BEYOND_A_HUNDREDTH = re.compile(r"(\.\d\d)\d+")
+DEFINITIONS = re.compile(r"<defs>.*?</defs>", re.DOTALL)  # the letters' shapes
+PATH = re.compile(r'(?<= d=")[^"]*')
+NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
+SPEEDS = 90
 
 
 def still(explorer):
     """The same picture as an HTML image, with a text for those who cannot see it."""
     run = explorer.trajectory()
-    # A hundredth of a point is enough, and text that is not base64 is easily compressed.
-    picture = PATH.sub(lambda path: BEYOND_A_HUNDREDTH.sub(r"\1", path[0]), _svg(explorer, run))
-    source = f"data:image/svg+xml,{quote(picture, safe=' /:;,=()')}"
+    figure = _compact(explorer, run) if explorer.compact else _panels(explorer, run)
+    source = f"data:image/svg+xml,{quote(_svg(figure), safe=' /:;,=()')}"
     text = _describe(explorer.robot, run)
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 
-def _svg(explorer, run):
-    """The three panels at the moment shown."""
-    robot = explorer.robot
-    t = explorer.time / MOMENTS * explorer.distance / run.v
-    n = min(round(t / run.dt), len(run.T) - 1)
+def _svg(figure):
+    """A figure as SVG; lines are exact to a hundredth of a point, the letters as they are."""
+    picture = io.StringIO()
+    with plt.style.context("suspension.figures.report"):
+        figure.savefig(picture, format="svg", metadata={"Date": None})
+    plt.close(figure)
+    parts, start = [], 0
+    text = picture.getvalue()
+    for letters in DEFINITIONS.finditer(text):
+        parts += [_shorten(text[start : letters.start()]), letters[0]]
+        start = letters.end()
+    return "".join([*parts, _shorten(text[start:])])
+
+
+def _shorten(text):
+    """Round the numbers of paths to a hundredth."""
+    return PATH.sub(lambda path: NUMBER.sub(lambda x: f"{float(x[0]):.2f}", path[0]), text)
+
+
+def _panels(explorer, run):
+    """The panels at the moment shown."""
+    has_speeds = _knows_all_speeds(explorer)
+    top = ["robot", "speeds"] if has_speeds else ["robot", "robot"]
     with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(
-            [["robot", "robot"], ["forces", "stability"]],
-            figsize=(7.2, 4.8),
-            height_ratios=[1, 1.6],
-            width_ratios=[1.7, 1],
+            [top, ["forces", "stability"]], figsize=(9, 6), width_ratios=[1.5, 1]
         )
-        drawing = RobotDrawing(axes["robot"], robot, explorer.road)
-        drawing.ground(run.X[n] - 3 * robot.L1, run.X[n] + 3 * robot.L2)
-        drawing.update(run.W[:, n], run.X[n])
+        _draw_robot(explorer, run, axes["robot"])
+        if has_speeds:
+            _draw_speeds(explorer, axes["speeds"])
         plot_forces(run, axes["forces"])
-        plot_stability(run.scheme, robot.eigenvalues, [run.dt], ax=axes["stability"])
+        plot_stability(run.scheme, explorer.robot.eigenvalues, [run.dt], ax=axes["stability"])
         axes["stability"].legend().remove()
-        picture = io.StringIO()
-        figure.savefig(picture, format="svg", metadata={"Date": None})
-        plt.close(figure)
-    return picture.getvalue()
+    return figure
+
+
+def _compact(explorer, run):
+    """The robot, and the curve over all speeds if it is known."""
+    names = [["robot"], ["speeds"]] if _knows_all_speeds(explorer) else [["robot"]]
+    with plt.style.context("suspension.figures.report"):
+        figure, axes = plt.subplot_mosaic(names, figsize=(7.2, 5))
+        _draw_robot(explorer, run, axes["robot"])
+        if "speeds" in axes:
+            _draw_speeds(explorer, axes["speeds"])
+    return figure
+
+
+def _knows_all_speeds(explorer):
+    """The exact least forces are those of one bump on the course's way."""
+    return explorer.family.has_bump and explorer.distance == COURSE
+
+
+def _draw_robot(explorer, run, ax):
+    robot = explorer.robot
+    t = explorer.time * explorer.distance / run.v
+    n = min(round(t / run.dt), len(run.T) - 1)
+    drawing = RobotDrawing(ax, robot, explorer.road)
+    drawing.ground(run.X[n] - 3 * robot.L1, run.X[n] + 3 * robot.L2)
+    drawing.update(run.W[:, n], run.X[n])
+
+
+def _draw_speeds(explorer, ax):
+    robot, road = explorer.robot, explorer.road
+    v = np.geomspace(VMIN, VMAX, SPEEDS)
+    least = np.array([[least.force for least in minima(robot, road, speed)] for speed in v]).T
+    critical = np.exp(zeros(lambda x: margin(robot, road, np.exp(x)), np.log(v)))
+    plot_margin(v, least, critical, ASKED, ax=ax)
+    ax.legend().remove()
 
 
 def _describe(robot, run):
@@ -61,7 +111,8 @@ def _describe(robot, run):
         force = f"is {quantity(least, 'newtons')}"
     stable = "stable" if run.scheme.is_stable(robot.eigenvalues, run.dt) else "unstable"
     return (
-        f"The robot on the road, both normal forces and the stability region of {run.scheme.name}: "
+        "The robot on the road, the least force of each wheel at every speed, both normal forces "
+        f"and the stability region of {run.scheme.name}: "
         f"at {run.v:g} metres per second {lifts}, the smallest force {force}, "
         f"and a step of {1000 * run.dt:g} ms is {stable}."
     )

@@ -1,108 +1,48 @@
-"""What the explorer's page iterates: the matrices of every step, the road, the stability regions.
-
-For the deviation ``d = w - w_eq`` from equilibrium, where the weight cancels because
-``A w_eq + e = 0``, the page computes ``d_{n+1} = R d_n + sum_c (G_c P) D u(t_n + c dt)`` and
-``N = C (w_eq + d) + D u``. Half as many numbers as ``G_c B = (G_c P) D`` say the same.
-"""
+"""What the explorer's page iterates: tableaux, stability regions, the road as polynomials."""
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
 
-from suspension.road import profile
+from suspension.road import GaussianBump, profile
 
-__all__ = [
-    "ROBOT_FIELDS",
-    "region",
-    "road_table",
-    "robot_table",
-    "step_fields",
-    "step_table",
-    "vary_stiffness",
-]
-
-ROBOT_FIELDS = [("CD", 16), ("equilibrium", 4), ("re", 4), ("im", 4)]
+__all__ = ["region", "road_table", "scheme_facts", "shape_of"]
 
 NODES = -np.cos(np.pi * np.arange(5) / 4)  # where a cell, -1 to 1, meets the road
 POWERS = np.arange(2 * len(NODES))
 GOAL = (1e-13, 1e-12)  # error of a height, m, and of a slope
 LIMIT = (1e-12, 1e-10)  # what a reader should be told of
 NOTHING = 1e-25  # m
+FAR = 11.0  # widths from its centre, where a bump of any height is nothing
 
 
-def vary_stiffness(robot):
-    """The robot with 13 stiffnesses k1, its own among them, and the ratio k2 / k1 unchanged.
-
-    They go from 300 to 1500 N/m, or as far below and above the robot's own if that is outside.
-
-    Returns
-    -------
-    robots : list of Robot, by stiffness
-    own : int
-        The place of `robot` itself.
-    """
-    k1 = np.linspace(300, 1500, 13)
-    if not k1[0] <= robot.k1 <= k1[-1]:
-        k1 *= robot.k1 / 800
-    own = int(np.abs(k1 - robot.k1).argmin())
-    robots = [replace(robot, k1=k, k2=k * (robot.k2 / robot.k1)) for k in k1]
-    robots[own] = robot
-    return robots, own
-
-
-def step_fields(scheme):
-    """What a row of a scheme's `step_table` holds: pairs of a name and a length, in order."""
-    stages = len(np.unique(scheme.c))  # those of equal c added up
-    return [("M", 4 * (4 + 2 * stages)), ("growth", 4), ("stable", 1)]
-
-
-def step_table(scheme, robots, dts):
-    """Everything about one step, for every robot and dt.
+def shape_of(road, start, stop):
+    """The road as ``H(x) = height shape((x - centre) / sigma)``, with a table of the shape.
 
     Parameters
     ----------
-    scheme : Scheme
-    robots : sequence of Robot
-    dts : sequence of float
-        Time steps, s.
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    start, stop : float
+        What the wheels can meet, m.
 
     Returns
     -------
-    table : ndarray, shape (len(robots), len(dts), 16 + 8 q + 5)
-        By `step_fields`: the columns of ``[R, G_c P, ..]``, shape (4, 4 + 2 q), with q different
-        abscissae c, stages of equal c added up; ``|R(lambda dt)|`` of the four modes; 1 if the
-        step is stable, else 0.
+    frame : dict
+        ``centre``; where the shape's table begins, and how long one of its cells is.
+    table : ndarray, shape (cells, 10)
     """
-    A, P = np.stack([robot.A for robot in robots]), np.stack([robot.P for robot in robots])
-    table = []
-    for dt in dts:
-        R, G = scheme.one_step(A, dt)
-        GP = [(G[scheme.c == c] @ P).sum(axis=0) for c in np.unique(scheme.c)]
-        columns = np.concatenate([R, *GP], axis=2).swapaxes(1, 2).reshape(len(robots), -1)
-        growth = [np.abs(scheme.stability_function(robot.eigenvalues * dt)) for robot in robots]
-        stable = [[scheme.is_stable(robot.eigenvalues, dt)] for robot in robots]
-        table.append(np.hstack([columns, growth, stable]))
-    return np.stack(table, axis=1)
+    if isinstance(road, GaussianBump):
+        centre, start, stop = road.centre, -FAR, FAR
+        table = road_table(GaussianBump(height=1.0, sigma=1.0, centre=0.0), start, stop, cells=256)
+    else:
+        centre = 0.0
+        table = road_table(road, start, stop)
+    frame = {"centre": centre, "start": start, "cell": (stop - start) / len(table)}
+    return frame, table
 
 
-def robot_table(robots):
-    """The columns of ``[C, D]``, the equilibrium, the eigenvalues' real and imaginary parts.
-
-    Returns
-    -------
-    table : ndarray, shape (len(robots), 28)
-        By `ROBOT_FIELDS`.
-    """
-    rows = []
-    for robot in robots:
-        lam = robot.eigenvalues
-        parts = [robot.C.T.ravel(), robot.D.T.ravel(), robot.equilibrium, lam.real, lam.imag]
-        rows.append(np.concatenate(parts))
-    return np.stack(rows)
-
-
-def road_table(road, start, stop, max_cells=4096):
+def road_table(road, start, stop, cells=1024, max_cells=4096):
     """The road as a polynomial of degree 9 in each of many equal cells.
 
     It has the road's height and slope at five points of the cell. A cubic between two points would
@@ -114,8 +54,8 @@ def road_table(road, start, stop, max_cells=4096):
         ``road(x) -> (H, dHdx)``.
     start, stop : float
         Where the table begins and ends, m.
-    max_cells : int
-        Where refining ends.
+    cells, max_cells : int
+        Where refining begins, fine enough to miss no bump, and where it ends.
 
     Returns
     -------
@@ -133,7 +73,6 @@ def road_table(road, start, stop, max_cells=4096):
         If the road is too rough, for example has a kink; the page then differs from `simulate`.
     """
     between = (NODES[:-1] + NODES[1:]) / 2
-    cells = 2048
     while True:
         half = (stop - start) / cells / 2
         middle = start + half * (2 * np.arange(cells) + 1)
@@ -164,13 +103,37 @@ def _sample(road, middle, half, s):
     return np.hstack([H, half * dHdx])
 
 
-def region(scheme, far=1e3):
-    """Corners (Re z, Im z) of the region of absolute stability.
+def scheme_facts(scheme):
+    """A scheme as the page is handed it: its tableau, R(z) = P(z) / Q(z), its region."""
+    P, Q = scheme.polynomials
+    return {
+        "name": scheme.name,
+        "order": scheme.order,
+        "a": scheme.a.tolist(),
+        "b": scheme.b.tolist(),
+        "c": scheme.c.tolist(),
+        "P": P.coef.tolist(),
+        "Q": Q.coef.tolist(),
+        "region": region(scheme),
+    }
 
-    A neutral curve from one end of the imaginary axis to the other bounds the half-plane on its
-    left, which is closed at a distance `far`.
+
+def region(scheme, far=1e3):
+    """The region of absolute stability as polygons that are filled by the even-odd rule.
+
+    Where the method is stable far out on the left, the half-plane is closed at a distance `far`;
+    where it is stable far out on the right too (backward Euler), the region lies outside the
+    curve, and a square around everything says so.
+
+    Returns
+    -------
+    polygons : list of lists of corners (Re z, Im z)
     """
     curve = scheme.boundary(361)
-    if abs(scheme.stability_function(-far)) < 1:
+    left, right = (abs(scheme.stability_function(far * way)) < 1 for way in (-1, 1))
+    if left and right:
+        square = np.array([[-far, -far], [far, -far], [far, far], [-far, far]])
+        return [square.tolist(), curve.round(4).tolist()]
+    if left:
         curve = np.vstack([[-far, -far], [0, -far], curve, [0, far], [-far, far]])
-    return curve.round(4).tolist()
+    return [curve.round(4).tolist()]

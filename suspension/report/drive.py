@@ -29,10 +29,23 @@ def experiments(robot, critical, flips, limit, slider):
     return "\n".join(f"{i}. {text}" for i, text in enumerate(texts, 1))
 
 
+def _set(text, **settings):
+    """A phrase that sets the page's picture: a link that the explorer follows.
+
+    >>> _set("at 1.2 m/s", v=1.2, scheme="RK4")
+    '[at 1.2 m/s](#explore:v=1.2&scheme=RK4)'
+    """
+    parts = [
+        f"{name}={value:.10g}" if isinstance(value, float) else f"{name}={value}"
+        for name, value in settings.items()
+    ]
+    return f"[{text}](#explore:{'&'.join(parts)})"
+
+
 def _faster(critical):
     start = (
-        "**Faster, and safer?** Step 1 ms, stiffness as fitted. Push v from 0.25 m/s to the end "
-        "and watch the margin: its sign "
+        f"**Faster, and safer?** Step 1 ms, stiffness as fitted. Push v "
+        f"{_set('from 0.25 m/s', v=0.25)} to the end and watch the margin: its sign "
     )
     if not len(critical):
         return start + "does not turn anywhere on the slider."
@@ -40,7 +53,7 @@ def _faster(critical):
 
 
 def _blow_up(limit, slider):
-    start = "**Blow it up.** RK4 at v = 1.2 m/s. "
+    start = f"**Blow it up.** {_set('RK4 at v = 1.2 m/s', v=1.2, scheme='RK4')}. "
     longer = [dt for dt in slider if dt > limit]
     if not longer:
         return start + (
@@ -49,11 +62,12 @@ def _blow_up(limit, slider):
             "and watch the four points move."
         )
     first = min(longer)
+    long = _set(_ms(first), v=1.2, scheme="RK4", dt=float(first))
     last = max((dt for dt in slider if dt <= limit), default=None)
     if last is None:
-        step = f"to {_ms(first)}"
+        step = f"to {long}"
     else:
-        step = f"from {1000 * last:g} to {_ms(first)}"
+        step = f"from {1000 * last:g} to {long}"
     return start + (
         f"Lengthen the step {step}: the largest stable one is {_ms(limit)}. Which of the four "
         "points leaves the region first?"
@@ -61,17 +75,24 @@ def _blow_up(limit, slider):
 
 
 def _wrong(slider):
+    same = _set("with Crank-Nicolson", v=1.2, dt=float(max(slider)), scheme="Crank-Nicolson")
     return (
-        f"**Stable, and wrong.** The same with Crank-Nicolson, up to {_ms(max(slider))}. Nothing "
-        "blows up. Compare with the faint curve behind."
+        f"**Stable, and wrong.** The same {same}, up to {_ms(max(slider))}. Nothing blows up. "
+        "Compare with the faint curve behind."
     )
 
 
 def _spring(flips):
-    start = "**Choose the spring.** At v = 5 m/s, step 1 ms, soften and stiffen the spring. "
+    start = (
+        f"**Choose the spring.** {_set('At v = 5 m/s', v=5)}, step 1 ms, soften and stiffen the "
+        "spring. "
+    )
     if not len(flips):
         return start + "The verdict stays, but the margin does not: how close does it come to zero?"
-    return start + f"The verdict turns at {join(number(k) for k in flips)}{SPACE}N/m."
+    return (
+        start
+        + f"The verdict turns at {join(_set(number(k), v=5, k=float(k)) for k in flips)}{SPACE}N/m."
+    )
 
 
 def _in_step(robot):
@@ -82,8 +103,8 @@ def _in_step(robot):
     period = 2 * np.pi / abs(heave.imag)
     one = (robot.L1 + robot.L2) / period
     return (
-        f"**In step, out of step.** Compare v = {number(one)} with {number(2 * one)}{SPACE}m/s: "
-        "the rear "
+        f"**In step, out of step.** Compare {_set(f'v = {number(one)}', v=float(one))} with "
+        f"{_set(f'{number(2 * one)}{SPACE}m/s', v=float(2 * one))}: the rear "
         "wheel meets the bump one heave period, or half of one, after the front wheel. One builds "
         "the heave up, the other takes it away."
     )

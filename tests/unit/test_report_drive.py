@@ -1,5 +1,7 @@
 """The experiments beside the sliders fit the robot that the sliders move."""
 
+import re
+
 import pytest
 from cases import STIFFNESSES, faults
 
@@ -15,8 +17,8 @@ ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
 
 
 def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
+    """A text without its no-break spaces and its links."""
+    return re.sub(r"\[([^]]*)\]\(#[^)]*\)", r"\1", text).replace("\xa0", " ")
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -50,3 +52,8 @@ def test_no_speed_and_no_stiffness_may_turn_the_verdict():
 def test_a_heave_without_a_swing_is_left_out():
     stiff = Robot(100, 100, c1=40, c2=40)
     assert "5." not in plain(experiments(stiff, [], [], 0.01, DTS))
+
+
+def test_phrases_set_the_picture():
+    links = re.findall(r"\]\(#explore:([^)]*)\)", told())
+    assert {"v=0.25", "v=1.2&scheme=RK4", "v=1.2&scheme=RK4&dt=0.08", "v=5&k=572.8"} <= set(links)

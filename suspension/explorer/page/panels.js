@@ -1,82 +1,25 @@
-// The three panels. Each draws one scene: what was computed, and the moment shown.
+// The four panels. Each has a `still` part, drawn when what was computed changes, and a `live` part,
+// drawn over it at every moment; `grab` says what a pointer at x, y takes hold of. The still part is
+// drawn again only when the panel's `key` is another one.
 
+import { drawMap } from "./map.js";
 import { clamp, show, ticks } from "./pen.js";
+import { WHEEL } from "./words.js";
 
-export const WHEEL = ["rear", "front"];
 const NAMES = ["N₁", "N₂"];
 const FAR = 5000; // pixels
 const DASH = [[], [7, 4]]; // rear solid, front dashed
-
-/** The robot on the road, one scale for both directions; the picture moves along with it. */
-export function drawRobot({ g, w, h, stroke, fill, line, dot, text }, { data, run, now }) {
-  const { road, wheels } = data, length = wheels[1] - wheels[0];
-  const scale = w / (length * clamp(w / 230, 2, 2.9)); // pixels a metre
-  const X = run.v * now.t, u = new Float64Array(4), spot = new Float64Array(4);
-  wheels.forEach((offset, i) => road(X + offset, u, i, 0));
-  const level = (u[0] + u[1]) / 2, climb = level - clamp(level, -0.03, 0.03); // up and down hills
-  const px = (x) => w / 2 + (x - X) * scale, py = (y) => h - 44 - (y - climb) * scale;
-
-  g.beginPath();
-  for (let x = 0; x <= w + 2; x += 2) {
-    road(X + (x - w / 2) / scale, spot, 0, 0);
-    g.lineTo(x, py(spot[0]));
-  }
-  stroke("soft", 1.2);
-  g.stroke();
-  g.lineTo(w + 2, h - 18);
-  g.lineTo(0, h - 18);
-  fill("ground");
-  g.fill();
-  for (const x of ticks(X - (w / 2 - 20) / scale, X + (w / 2 - 20) / scale, w / 100)) {
-    line(px(x), h - 18, px(x), h - 13);
-    text(`${show(x)} m`, px(x), h - 2, { align: "center" });
-  }
-
-  // How high the body rides and how large a wheel is drawn; the model knows neither.
-  const ride = 0.28 * length, r = 0.055 * length;
-  const Y = clamp(now.W[0], -0.3, 0.3) || 0, tilt = clamp(now.W[2], -1.5, 1.5) || 0;
-  const ends = wheels.map((offset) => Y + offset * tilt); // Y_i, where the unstretched springs end
-  const body = wheels.map((offset, i) => [px(X + offset), py(ends[i] + ride)]);
-  body.forEach(([x, top], i) => {
-    const hub = py(Math.max(u[i], ends[i]) + r); // on the ground where Y_i <= h_i, else hanging
-    stroke(WHEEL[i], 1.8);
-    const coils = Array.from({ length: 13 }, (_, k) => [
-      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6), hub + ((top - hub) * k) / 12,
-    ]);
-    line(...coils.flat());
-    const middle = (hub + top) / 2; // the damper: a rod in a cup
-    line(x + 9, top, x + 9, middle - 2);
-    line(x + 5, middle - 2, x + 13, middle - 2);
-    line(x + 4, middle - 9, x + 4, middle + 6, x + 14, middle + 6, x + 14, middle - 9);
-    line(x + 9, middle + 6, x + 9, hub);
-    line(x - 6, hub, x + 9, hub);
-    dot(x, hub, r * scale, "paper", WHEEL[i], 3);
-
-    const N = now.N[i], foot = py(u[i]), at = x + (i ? 1 : -1) * (r * scale + 16);
-    const arrow = clamp((34 * N) / run.N[i][0], 0, 110); // 34 pixels for the force at equilibrium
-    stroke(WHEEL[i], 2.5);
-    line(at, foot, at, foot - arrow);
-    if (arrow > 7) line(at - 4, foot - arrow + 6, at, foot - arrow, at + 4, foot - arrow + 6);
-    const lost = !(N > 0), words = `${NAMES[i]} ${lost ? "lost" : `= ${show(N)} N`}`;
-    text(words, x, h - 26, { align: "center", colour: lost ? "alarm" : "ink", bold: lost });
-  });
-  g.lineCap = "round";
-  stroke("ink", 8);
-  line(...body.flat());
-  g.lineCap = "butt";
-  dot(px(X), py(Y + ride), 5, "paper", "ink", 2);
-  if (Y !== now.W[0] || tilt !== now.W[2]) {
-    const style = { align: "center", colour: "alarm", bold: true };
-    text("computed far outside this picture", w / 2, 14, style);
-  }
-}
+const REACH = 24; // pixels around a thing that one can take hold of
 
 /** A curve through samples; where they are dense, the first of each few and those that stand out. */
 function trace(values, x, y, width) {
-  const path = new Path2D(), every = Math.max(1, Math.floor((2 * values.length) / width));
+  const path = new Path2D(),
+    every = Math.max(1, Math.floor((2 * values.length) / width));
   for (let n = 0; n < values.length; n += every) {
-    const end = Math.min(n + every, values.length) - 1, points = [n];
-    let low = n, high = n;
+    const end = Math.min(n + every, values.length) - 1,
+      points = [n];
+    let low = n,
+      high = n;
     for (let m = n + 1; m <= end; m++) {
       if (values[m] < values[low]) low = m;
       if (values[m] > values[high]) high = m;
@@ -92,122 +35,522 @@ function trace(values, x, y, width) {
   return path;
 }
 
-/** Both forces against time; broad and pale behind them those of the finest step. */
-export function drawForces({ w, h, g, stroke, fill, line, dot, text, inside }, scene) {
-  const { data, run, finest, verdict, truth, now } = scene, end = data.distance / run.v;
-  const [left, right, top, bottom] = [40, w - 10, 50, h - 34];
-  const floor = Math.min(0, truth.least), span = truth.most - floor || 1; // of the finest step
-  const low = Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
-  const high = Math.min(Math.max(truth.most, verdict.most), truth.most + 0.7 * span) + 0.05 * span;
-  const px = (t) => left + ((right - left) * t) / end;
-  const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
+/** The robot on the road, one scale for both directions; the picture moves along with it. */
+export const robotPanel = {
+  name: "robot",
+  title: "The robot on its road",
+  live(pen, scene, { now, motion, ghost }) {
+    const { g, w, h, stroke, fill, line, text } = pen,
+      { data, road, robot } = scene;
+    const [rear, front] = data.wheels,
+      length = front - rear;
+    const scale = Math.min(w / (length * clamp(w / 260, 1.7, 2.3)), (h - 50) / (0.62 * length));
+    this.scale = scale;
+    const { X } = now,
+      u = new Float64Array(4),
+      spot = new Float64Array(4);
+    [rear, front].forEach((offset, i) => road(X + offset, u, i, 0));
+    const level = (u[0] + u[1]) / 2,
+      climb = level - clamp(level, -0.03, 0.03); // up and down hills
+    const px = (x) => w / 2 + (x - X) * scale,
+      py = (y) => h - 42 - (y - climb) * scale;
 
-  text("Normal forces (N)", 0, 14, { colour: "ink", bold: true });
-  WHEEL.forEach((wheel, i) => {
-    const x = right - [126, 46][i];
-    stroke(wheel, 2, DASH[i]);
-    line(x - 28, 10, x - 4, 10);
-    text(`${NAMES[i]} ${wheel}`, x, 14, { colour: "ink" });
-  });
-  if (w > 400) {
-    stroke("soft", 6);
-    g.globalAlpha = 0.3;
-    line(right - 256, 10, right - 232, 10);
-    g.globalAlpha = 1;
-    text("finest step", right - 228, 14);
-  }
-  for (const N of ticks(low, high, (bottom - top) / 36)) {
-    stroke("line", 1);
-    line(left, py(N), right, py(N));
-    text(show(N), left - 6, py(N) + 4, { align: "right" });
-  }
-  stroke("soft", 1);
-  for (const t of ticks(0, end, (right - left) / 70)) {
-    line(px(t), bottom, px(t), bottom + 4);
-    text(show(t), px(t), bottom + 16, { align: "center" });
-  }
-  for (const X of ticks(0, data.distance, (right - left) / 70).slice(1)) {
-    line(px(X / run.v), top, px(X / run.v), top - 4);
-    text(show(X), px(X / run.v), top - 7, { align: "center" });
-  }
-  text("time t (s)", right, h - 3, { align: "right" });
-  text("X (m)", left, top - 7);
-
-  inside(left, top, right - left, bottom - top, () => {
-    const lost = verdict.lost && px(verdict.lost.t);
-    if (verdict.lost) {
-      fill("alarm", 0.07);
-      g.globalAlpha = 0.07;
-      g.fillRect(lost, top, right - lost, bottom - top);
-      g.globalAlpha = 1;
+    g.beginPath();
+    for (let x = 0; x <= w + 2; x += 2) {
+      road(X + (x - w / 2) / scale, spot, 0, 0);
+      g.lineTo(x, py(spot[0]));
     }
-    stroke("ink", 1.2);
-    line(left, py(0), right, py(0));
-    g.globalAlpha = 0.25;
-    for (const i of [0, 1]) {
-      stroke(WHEEL[i], 6, [], trace(finest.N[i], (m) => px(m * finest.dt), py, right - left));
+    stroke("soft", 1.2);
+    g.stroke();
+    g.lineTo(w + 2, h - 18);
+    g.lineTo(0, h - 18);
+    fill("ground");
+    g.fill();
+    for (const x of ticks(X - (w / 2 - 20) / scale, X + (w / 2 - 20) / scale, w / 100)) {
+      line(px(x), h - 18, px(x), h - 13);
+      text(`${show(x)} m`, px(x), h - 3, { align: "center" });
     }
-    g.globalAlpha = 1;
-    for (const i of [0, 1]) {
-      stroke(WHEEL[i], 1.8, DASH[i], trace(run.N[i], (m) => px(m * run.dt), py, right - left));
-      if (run.J < (right - left) / 8) { // few enough to see the samples
-        run.N[i].forEach((N, m) => dot(px(m * run.dt), py(N), 2.5, WHEEL[i]));
+    const place = { X, px, py, u, r: 0.055 * length, ride: 0.28 * length, scale };
+    if (ghost) drawRobot(pen, scene, place, ghost, true);
+    const shown = now[motion],
+      wild = drawRobot(pen, scene, place, shown, false);
+    [0, 1].forEach((i) => {
+      const lost = !(shown.N[i] > 0),
+        spring = compression(robot, shown.W, u, i);
+      const words = `${NAMES[i]} ${lost ? (motion === "flying" ? "in the air" : "lost") : `= ${show(shown.N[i])} N`}`;
+      text(words, px(X + data.wheels[i]), h - 24, {
+        align: "center",
+        colour: lost ? "alarm" : "ink",
+        bold: lost,
+        halo: true,
+      });
+      if (spring > data.springEnd) {
+        text("beyond the measured spring", i ? w - 8 : 8, 30, {
+          align: i ? "right" : "left",
+          colour: "doubt",
+          bold: true,
+        });
       }
+    });
+    if (wild)
+      text("computed far outside this picture", w / 2, 14, { align: "center", colour: "doubt", bold: true });
+  },
+  grab(x, _y, { now, scene }) {
+    const { scale } = this,
+      { X } = now;
+    return {
+      cursor: "grabbing",
+      to: (x2) => ({ time: clamp((X + (x2 - x) / scale) / scene.data.distance, 0, 1) }),
+    };
+  },
+};
+
+/** How far a spring is compressed. */
+const compression = ({ Cp, Dp }, W, u, i) =>
+  Cp[i].reduce((sum, value, j) => sum + value * W[j], 0) +
+  Dp[i].reduce((sum, value, j) => sum + value * u[j], 0);
+
+/** The body, springs, dampers and wheels in one state; true if it is far outside the picture. */
+function drawRobot(
+  { g, stroke, line, dot },
+  { data, robot, flight },
+  { X, px, py, u, r, ride, scale },
+  { W, N },
+  faint,
+) {
+  const Y = clamp(W[0], -0.3, 0.3) || 0,
+    tilt = clamp(W[2], -1.5, 1.5) || 0;
+  const state = [Y, 0, tilt, 0];
+  const p = [0, 1].map((i) => compression(robot, state, u, i));
+  const hubs = p.map((value, i) => u[i] + Math.max(-value, 0) + r); // on the ground, else hanging
+  // How high the body rides and how large a wheel is drawn, the model does not know.
+  const ends = p.map((value, i) => Math.max(u[i] - value + ride, hubs[i] + 1.7 * r));
+  const at = data.wheels.map((offset) => px(X + offset));
+  const body = ends.map((end, i) => [at[i], py(end)]);
+  g.save();
+  if (faint) g.globalAlpha = 0.3;
+  body.forEach(([x, top], i) => {
+    const hub = py(hubs[i]);
+    stroke(WHEEL[i], 1.8);
+    const coils = Array.from({ length: 13 }, (_, k) => [
+      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6),
+      hub + ((top - hub) * k) / 12,
+    ]);
+    line(...coils.flat());
+    const middle = (hub + top) / 2; // the damper: a rod in a cup
+    line(x + 9, top, x + 9, middle - 2);
+    line(x + 5, middle - 2, x + 13, middle - 2);
+    line(x + 4, middle - 9, x + 4, middle + 6, x + 14, middle + 6, x + 14, middle - 9);
+    line(x + 9, middle + 6, x + 9, hub);
+    line(x - 6, hub, x + 9, hub);
+    g.save();
+    dot(x, hub, r * scale, faint ? null : "paper", WHEEL[i], 3);
+    g.restore();
+    if (faint) return;
+    const foot = py(u[i]),
+      beside = x + (i ? 1 : -1) * (r * scale + 16);
+    const arrow = clamp((34 * N[i]) / flight.N[i][0], 0, 110); // 34 pixels for the force at rest
+    stroke(WHEEL[i], 2.5);
+    line(beside, foot, beside, foot - arrow);
+    if (arrow > 7) line(beside - 4, foot - arrow + 6, beside, foot - arrow, beside + 4, foot - arrow + 6);
+  });
+  if (faint) g.globalAlpha = 0.3;
+  g.lineCap = "round";
+  stroke("ink", 8);
+  line(...body.flat());
+  g.lineCap = "butt";
+  if (!faint) {
+    const share = (0 - data.wheels[0]) / (data.wheels[1] - data.wheels[0]); // the centre of mass
+    dot(
+      body[0][0] + share * (body[1][0] - body[0][0]),
+      body[0][1] + share * (body[1][1] - body[0][1]),
+      5,
+      "paper",
+      "ink",
+      2,
+    );
+  }
+  g.restore();
+  return Y !== W[0] || tilt !== W[2];
+}
+
+/** Round numbers with lines along one axis. */
+function levels({ stroke, line, text }, values, py, left, right) {
+  for (const value of values) {
+    stroke("line", 1);
+    line(left, py(value), right, py(value));
+    text(show(value), left - 6, py(value) + 4, { align: "right" });
+  }
+}
+
+/** Both forces against time and place. */
+export const forcesPanel = {
+  name: "forces",
+  title: "Normal forces",
+  key: ({ settings }, { motion }) => [...Object.values(settings), motion],
+  still(pen, scene, { motion, pinned }) {
+    const { w, h, g, stroke, shade, line, dot, text, inside } = pen,
+      { run, truth, flight, v, end, data } = scene;
+    const flying = motion === "flying",
+      exact = truth.verdict,
+      verdict = flying || !run ? exact : run.verdict;
+    const [left, right, top, bottom] = [38, w - 10, 46, h - 30];
+    const floor = Math.min(0, flying ? 0 : exact.least),
+      span = exact.most - floor || 1;
+    const peak = flying ? highest(flight, exact.most) : exact.most;
+    const low = flying
+      ? -0.08 * peak
+      : Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
+    const high = flying
+      ? 1.08 * peak
+      : Math.min(Math.max(exact.most, verdict.most), exact.most + 0.7 * span) + 0.05 * span;
+    const px = (t) => left + ((right - left) * t) / end,
+      py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
+    this.frame = { left, right, top, bottom, px, py, end };
+
+    text("Normal forces (N)", 0, 13, { colour: "ink", bold: true });
+    WHEEL.forEach((wheel, i) => {
+      const x = right - [116, 42][i];
+      stroke(wheel, 2, DASH[i]);
+      line(x - 26, 9, x - 4, 9);
+      text(`${NAMES[i]} ${wheel}`, x, 13, { colour: "ink" });
+    });
+    if (w > 420) {
+      stroke("soft", 6);
+      g.globalAlpha = 0.3;
+      line(right - 246, 9, right - 222, 9);
+      g.globalAlpha = 1;
+      text(flying ? "linear" : "exact", right - 218, 13);
     }
+    levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
+    stroke("soft", 1);
+    for (const t of ticks(0, end, (right - left) / 70)) {
+      line(px(t), bottom, px(t), bottom + 4);
+      text(show(t), px(t), bottom + 15, { align: "center" });
+    }
+    for (const X of ticks(0, data.distance, (right - left) / 70).slice(1)) {
+      line(px(X / v), top, px(X / v), top - 4);
+      text(show(X), px(X / v), top - 7, { align: "center" });
+    }
+    text("time t (s)", right, h - 2, { align: "right" });
+    text("X (m)", left, top - 7);
+
+    inside(left, top, right - left, bottom - top, () => {
+      for (const [a, b] of truth.beyond) shade("doubt", 0.6, px(a), top, Math.max(px(b) - px(a), 2), 4);
+      const lost = verdict.lost && px(verdict.lost.t);
+      if (flying) {
+        shadeAirborne(pen, flight, px, top, bottom);
+      } else if (verdict.lost) {
+        shade("alarm", 0.07, lost, top, right - lost, bottom - top);
+      }
+      stroke("ink", 1.2);
+      line(left, py(0), right, py(0));
+      const curve = (found, i, width, dash) =>
+        stroke(
+          WHEEL[i],
+          width,
+          dash,
+          trace(found.N[i].subarray(0, found.J + 1), (m) => px(m * found.dt), py, right - left),
+        );
+      g.globalAlpha = 0.25;
+      for (const i of [0, 1]) curve(truth, i, 6, []);
+      g.globalAlpha = 1;
+      if (pinned) {
+        for (const i of [0, 1]) {
+          stroke(
+            "soft",
+            1.5,
+            DASH[i],
+            trace(pinned.N[i], (m) => px((m * pinned.dt * pinned.v) / v), py, right - left),
+          );
+        }
+      }
+      if (flying) for (const i of [0, 1]) curve(flight, i, 2, DASH[i]);
+      else if (run) {
+        for (const i of [0, 1]) {
+          curve(run, i, 1.8, DASH[i]);
+          if (run.J < (right - left) / 8) {
+            // few enough to see the samples
+            run.N[i].forEach((N, m) => dot(px(m * run.dt), py(N), 2.5, WHEEL[i]));
+          }
+        }
+      }
+      if (flying) {
+        for (const { wheel, kind, t, force } of flight.events.slice(0, 40)) {
+          dot(
+            px(t),
+            py(force),
+            kind === "landing" ? 4.5 : 3.5,
+            kind === "landing" ? WHEEL[wheel] : "paper",
+            WHEEL[wheel],
+            2,
+          );
+        }
+      } else {
+        if (run?.verdict.lost && scene.stable)
+          mark(pen, this.frame, run.verdict.lost.t, 0, "contact lost", "alarm");
+        if (run && scene.stable && !run.verdict.lost && exact.lost) {
+          mark(pen, this.frame, exact.t, exact.least, "missed", "doubt");
+        }
+        if (run && (verdict.least < low || verdict.most > high)) {
+          text("grows out of this picture", right - 8, top + 18, {
+            align: "right",
+            colour: "doubt",
+            bold: true,
+            halo: true,
+          });
+        }
+      }
+    });
+  },
+  live(pen, _scene, { now, motion }) {
+    const { stroke, line, dot } = pen,
+      { px, py, top, bottom } = this.frame;
     stroke("soft", 1);
     line(px(now.t), top, px(now.t), bottom);
-    for (const i of [0, 1]) dot(px(now.t), py(now.N[i]), 5, WHEEL[i], "paper");
-    if (verdict.lost) {
-      dot(lost, py(0), 6, null, "alarm", 2.5);
-      const align = lost > (left + right) / 2 ? "right" : "left";
-      const style = { align, colour: "alarm", bold: true, halo: true };
-      text("contact lost", lost + (align === "left" ? 9 : -9), py(0) + 18, style);
-    }
-    if (verdict.least < low || verdict.most > high) {
-      const style = { align: "right", colour: "alarm", bold: true, halo: true };
-      text("grows out of this picture", right - 8, top + 16, style);
-    }
-  });
-}
+    for (const i of [0, 1]) dot(px(now.t), clamp(py(now[motion].N[i]), top, bottom), 5, WHEEL[i], "paper");
+  },
+  grab(x) {
+    const { left, right } = this.frame;
+    const to = (x2) => ({ time: clamp((x2 - left) / (right - left), 0, 1) });
+    return { cursor: "ew-resize", to, at: to(x) };
+  },
+};
 
-/** The region where no mode grows, the modes' lambda dt in it, and where other steps put them. */
-export function drawStability({ w, h, stroke, fill, line, dot, text, inside }, scene) {
-  const { data, robot, step, scheme, dt } = scene;
-  const z = Array.from(robot.re, (re, i) => [re, robot.im[i]]);
-  const [left, right, top, bottom] = [26, w - 4, 26, h - 34];
-  const half = Math.max(3.4, 1.15 * dt * Math.max(...z.map(([re, im]) => Math.hypot(re, im))));
-  const scale = (bottom - top) / 2 / half, zero = left + 0.64 * (right - left);
-  const px = (re) => zero + re * scale, py = (im) => (top + bottom) / 2 - im * scale;
+const highest = (flight, most) => {
+  let top = Math.min(most, 1e9);
+  for (const N of flight.N) for (let n = 0; n <= flight.J; n++) if (N[n] > top) top = N[n];
+  return top;
+};
 
-  text(`Stability of ${data.schemes[scheme].name}`, 0, 14, { colour: "ink", bold: true });
-  for (const im of ticks(-half, half, (bottom - top) / 40)) {
-    text(show(im), left - 5, py(im) + 4, { align: "right" });
-  }
-  for (const re of ticks((left - zero) / scale, (right - zero) / scale, (right - left) / 40)) {
-    text(show(re), px(re), bottom + 16, { align: "center" });
-  }
-  text("Re λΔt", right, h - 3, { align: "right" });
-  text("Im", left + 4, top + 12);
-
-  inside(left, top, right - left, bottom - top, () => {
-    const region = new Path2D();
-    for (const [re, im] of data.schemes[scheme].region) region.lineTo(px(re), py(im));
-    region.closePath();
-    fill("region", 0.15, region);
-    stroke("line", 1);
-    line(left, py(0), right, py(0));
-    line(px(0), top, px(0), bottom);
-    stroke("region", 1.6, [], region);
-    text("stable", px(-1.15 * half / 3.4), py(0) - 6, { align: "center", colour: "region" });
-    const others = new Path2D();
-    for (const [x, y] of z.flatMap(([re, im]) => data.dts.map((t) => [px(re * t), py(im * t)]))) {
-      others.moveTo(x, y);
-      others.arc(x, y, 1.5, 0, 2 * Math.PI);
-    }
-    fill("soft", 1, others);
-    z.forEach(([re, im], i) => {
-      const grows = !step.stable && step.growth[i] > 1;
-      dot(px(re * dt), py(im * dt), 5.5, grows ? "alarm" : "ink", "paper");
+/** When a wheel is in the air: the rear wheel in the upper half, the front wheel in the lower. */
+function shadeAirborne({ shade }, { events, dt, J }, px, top, bottom) {
+  const half = (bottom - top) / 2;
+  for (const i of [0, 1]) {
+    const own = events.filter(({ wheel }) => wheel === i);
+    own.forEach(({ kind, t }, n) => {
+      const end = own[n + 1]?.t ?? dt * J;
+      if (kind === "lift-off") shade(WHEEL[i], 0.12, px(t), top + i * half, px(end) - px(t), half);
     });
-  });
+  }
 }
+
+/** A ring with words beside it. */
+function mark({ dot, text }, { px, py, left, right, top, bottom }, t, N, words, colour) {
+  const x = px(t),
+    y = clamp(py(N), top + 8, bottom - 8),
+    align = x > (left + right) / 2 ? "right" : "left";
+  dot(x, y, 6, null, colour, 2.5);
+  text(words, x + (align === "left" ? 10 : -10), y + 18, { align, colour, bold: true, halo: true });
+}
+
+/** The least force of each wheel at every speed, with the speeds at which contact is lost shaded. */
+export const speedsPanel = {
+  name: "speeds",
+  title: "Least force at every speed",
+  key: ({ settings: { k, c, height, sigma } }, { map }) => (map ? map.key : [k, c, height, sigma]),
+  still(pen, scene, { pinned, map }) {
+    if (map) {
+      this.frame = drawMap(pen, scene, map);
+      return;
+    }
+    const { w, h, stroke, shade, line, dot, text, inside } = pen,
+      { curve, data, robot } = scene;
+    const { speeds, least, critical } = curve,
+      [lowest, highestSpeed] = data.ranges.v;
+    const [left, right, top, bottom] = [38, w - 12, 46, h - 30],
+      rest = Math.max(...robot.weight);
+    const bottomForce = Math.min(...least[0], ...least[1]);
+    const low = Math.max(Math.min(bottomForce, -0.4 * rest), -4 * rest) - 0.1 * rest,
+      high = 1.9 * rest;
+    const ratio = Math.log(highestSpeed / lowest);
+    const px = (v) => left + ((right - left) * Math.log(v / lowest)) / ratio;
+    const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
+    this.frame = { left, right, top, bottom, px, py, lowest, ratio };
+    text("Least force (N) at every speed", 0, 13, { colour: "ink", bold: true });
+    levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
+    const edges = [lowest, ...critical, highestSpeed];
+    edges.slice(1).forEach((edge, i) => {
+      const kept = curve.kept === (i % 2 === 0),
+        a = px(edges[i]),
+        b = px(edge);
+      shade(kept ? "region" : "alarm", 0.1, a, top, b - a, bottom - top);
+      if (b - a > 40)
+        text(kept ? "kept" : "lost", (a + b) / 2, top + 14, {
+          align: "center",
+          colour: kept ? "region" : "alarm",
+          bold: true,
+          halo: true,
+        });
+    });
+    for (const v of [0.1, 0.2, 0.5, 1, 2, 5, 10, 20]) {
+      stroke("soft", 1);
+      line(px(v), bottom, px(v), bottom + 4);
+      text(show(v), px(v), bottom + 15, { align: "center" });
+    }
+    text("speed v (m/s)", right, h - 2, { align: "right" });
+    inside(left, top, right - left, bottom - top, () => {
+      stroke("ink", 1.2);
+      line(left, py(0), right, py(0));
+      if (pinned)
+        for (const i of [0, 1])
+          stroke(
+            "soft",
+            1.5,
+            DASH[i],
+            trace(pinned.least[i], (m) => px(speeds[m]), py, FAR),
+          );
+      for (const i of [0, 1])
+        stroke(
+          WHEEL[i],
+          2,
+          DASH[i],
+          trace(least[i], (m) => px(speeds[m]), py, FAR),
+        );
+      for (const v of data.asked) dot(px(v), py(Math.min(...curve.leastAt(v))), 3.5, "paper", "ink", 1.5);
+    });
+    let last = -FAR;
+    for (const v of critical) {
+      dot(px(v), py(0), 4, "ink");
+      const x = clamp(px(v), left + 14, right - 14);
+      text(show(v), x, x - last < 34 ? top - 22 : top - 8, { align: "center", colour: "ink" });
+      last = x - last < 34 ? last : x;
+    }
+  },
+  live({ stroke, line, dot }, scene, { map }) {
+    const { px, py, top, bottom } = this.frame,
+      x = px(scene.v);
+    if (map) {
+      dot(x, py(scene.settings.k), 6, "ink", "paper", 2);
+      return;
+    }
+    stroke("ink", 1.5);
+    line(x, top, x, bottom);
+    const margin = clamp(py(scene.truth.verdict.least), top, bottom);
+    dot(x, margin, 6, "ink", "paper", 2);
+  },
+  grab(x, y, { map }) {
+    const { left, right, lowest, ratio, stiffness } = this.frame;
+    const to = (x2, y2) => {
+      const k = map && { k: Number(stiffness(y2).toPrecision(3)) };
+      const v = lowest * Math.exp((ratio * clamp(x2 - left, 0, right - left)) / (right - left));
+      return { v: Number(v.toPrecision(3)), ...k, time: null };
+    };
+    return { cursor: map ? "crosshair" : "ew-resize", to, at: to(x, y) };
+  },
+};
+
+/** The region where no mode grows, the modes' lambda dt in it, their rays, and a closer look. */
+export const stabilityPanel = {
+  name: "stability",
+  title: "Region of absolute stability",
+  key: ({ settings: { k, c, dt, scheme_index } }, { held }) => [k, c, dt, scheme_index, held],
+  still(pen, scene, { pinned, held }) {
+    const { w, h, text } = pen,
+      { scheme, robot, dt } = scene;
+    const [left, right, top, bottom] = [26, w - 4, 24, h - 30],
+      size = robot.modes.map(([re, im]) => Math.hypot(re, im));
+    const half = held ? this.frame.half : Math.max(3.4, 1.15 * dt * Math.max(...size));
+    this.frame = { half, ...plane(left, right, top, bottom, half, 0.74) };
+    text(`Stability of ${scheme.name}`, 0, 13, { colour: "ink", bold: true });
+    const { px, py, scale } = this.frame,
+      { zero } = this.frame;
+    for (const im of ticks(-half, half, (bottom - top) / 40))
+      text(show(im), left - 5, py(im) + 4, { align: "right" });
+    for (const re of ticks((left - zero) / scale, (right - zero) / scale, (right - left) / 40)) {
+      text(show(re), px(re), bottom + 15, { align: "center" });
+    }
+    text("Re λΔt", right, h - 2, { align: "right" });
+    text("Im", left + 4, top + 12);
+    this.draw(pen, scene, this.frame, pinned, true);
+    // When the modes crowd near zero: the same, enlarged. What one holds on to does not move away.
+    const reach = dt * Math.max(...size);
+    if (!held) {
+      const side = Math.min(0.44 * (bottom - top), 0.45 * (right - left)),
+        [x, y] = [left + 6, bottom - 6];
+      const crowded = reach * scale < 30 && side > 60;
+      this.inset = crowded ? plane(x, x + side, y - side, y, 1.3 * reach, 0.72) : null;
+    }
+    if (this.inset) {
+      const { left: x, top: y, right: x2, bottom: y2 } = this.inset;
+      pen.shade("paper", 1, x, y, x2 - x, y2 - y);
+      this.draw(pen, scene, this.inset, pinned, false);
+      pen.stroke("soft", 1);
+      pen.line(x, y, x2, y, x2, y2, x, y2, x, y);
+      text(`${show(this.inset.scale / scale, 2)} ×`, x + 4, y + 13, { halo: true });
+    }
+  },
+  draw({ stroke, fill, line, dot, text, inside }, { scheme, robot, dt, growths, data }, frame, pinned, main) {
+    const { left, right, top, bottom, px, py, half } = frame;
+    inside(left, top, right - left, bottom - top, () => {
+      const region = new Path2D();
+      for (const corners of scheme.region) {
+        corners.forEach(([re, im], i) => region[i ? "lineTo" : "moveTo"](px(re), py(im)));
+        region.closePath();
+      }
+      fill("region", 0.15, region);
+      stroke("line", 1);
+      line(left, py(0), right, py(0));
+      line(px(0), top, px(0), bottom);
+      stroke("region", 1.6, [], region);
+      if (main)
+        text("stable", px((-1.15 * half) / 3.4), py(0.12 * half), { align: "center", colour: "region" });
+      const others = new Path2D();
+      stroke("soft", 0.6);
+      for (const [re, im] of robot.modes) {
+        line(px(0), py(0), px(re * data.ranges.dt[1]), py(im * data.ranges.dt[1]));
+        for (const t of data.dts) {
+          others.moveTo(px(re * t), py(im * t));
+          others.arc(px(re * t), py(im * t), 1.5, 0, 2 * Math.PI);
+        }
+      }
+      fill("soft", 1, others);
+      if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "soft", 1.5));
+      robot.modes.forEach(([re, im], i) =>
+        dot(px(re * dt), py(im * dt), main ? 5.5 : 4.5, growths[i] > 1 + 1e-12 ? "alarm" : "ink", "paper"),
+      );
+    });
+  },
+  grab(x, y, { scene }) {
+    const { modes } = scene.robot,
+      { dt, data } = scene;
+    const { inset } = this,
+      inInset = inset && x >= inset.left && x <= inset.right && y >= inset.top && y <= inset.bottom;
+    const frame = inInset ? inset : this.frame;
+    const away = ([re, im]) => Math.hypot(x - frame.px(re * dt), y - frame.py(im * dt));
+    const nearest = modes.reduce((a, b) => (away(b) < away(a) ? b : a)),
+      [re, im] = nearest;
+    if (away(nearest) > REACH) return null;
+    const to = (x2, y2) => {
+      const along = ((x2 - frame.px(0)) * re - (y2 - frame.py(0)) * im) / frame.scale;
+      const step = clamp(along / (re * re + im * im), data.ranges.dt[0], data.ranges.dt[1]);
+      return { dt: Number(step.toPrecision(3)) };
+    };
+    return { cursor: "grabbing", to, holds: true };
+  },
+};
+
+/** The complex plane in a rectangle, one scale for both directions. */
+function plane(left, right, top, bottom, half, share) {
+  const scale = (bottom - top) / 2 / half,
+    zero = left + share * (right - left),
+    middle = (top + bottom) / 2;
+  return {
+    left,
+    right,
+    top,
+    bottom,
+    half,
+    scale,
+    zero,
+    px: (re) => zero + re * scale,
+    py: (im) => middle - im * scale,
+  };
+}
+
+export const PANELS = {
+  robot: robotPanel,
+  speeds: speedsPanel,
+  forces: forcesPanel,
+  stability: stabilityPanel,
+};

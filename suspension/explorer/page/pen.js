@@ -5,41 +5,58 @@ export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 /** A number in few digits, with a true minus sign and powers of ten. */
 export function show(x, digits = 3) {
   if (!Number.isFinite(x)) return "more than 10³⁰⁰";
-  const [mantissa, power] = x.toExponential(digits - 1).split("e").map(Number);
+  const [mantissa, power] = x
+    .toExponential(digits - 1)
+    .split("e")
+    .map(Number);
   const raised = String(power).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
   const plain = x === 0 || (power > -4 && power < 5);
   const text = plain ? String(Number(x.toPrecision(digits))) : `${mantissa}\u00a0×\u00a010${raised}`;
   return text.replace("-", "−");
 }
 
+/** A number as one writes it: at most so many digits, no power of ten, no trailing zeros. */
+export const plain = (x, digits = 6) => String(Number(x.toPrecision(digits)));
+
 /** Round numbers from low to high, at most `count` steps of 1, 2 or 5 times a power of ten. */
 export function ticks(low, high, count) {
-  const raw = (high - low) / count, ten = 10 ** Math.floor(Math.log10(raw));
+  const raw = (high - low) / count,
+    ten = 10 ** Math.floor(Math.log10(raw));
   const step = ten * [1, 2, 5, 10].find((m) => m * ten >= raw);
-  const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+  const first = Math.ceil(low / step - 1e-9),
+    last = Math.floor(high / step + 1e-9);
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
 }
 
-/** A cleared canvas at the screen's resolution, and a pen with the theme's colours. */
-export function begin(canvas, colours) {
-  const ratio = window.devicePixelRatio || 1, g = canvas.getContext("2d");
-  const w = canvas.clientWidth, h = canvas.clientHeight;
+/** A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. */
+export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 1) {
+  const g = canvas.getContext("2d");
   const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.clearRect(0, 0, w, h);
   g.lineJoin = "round";
   const pen = {
-    g, w, h,
+    g,
+    w,
+    h,
+    colours,
     stroke(colour, lineWidth, dash = [], path) {
       Object.assign(g, { strokeStyle: colours[colour], lineWidth });
       g.setLineDash(dash);
       if (path) g.stroke(path);
     },
     fill(colour, alpha = 1, path) {
+      const before = g.globalAlpha;
+      Object.assign(g, { fillStyle: colours[colour], globalAlpha: before * alpha });
+      if (path) g.fill(path, "evenodd");
+      g.globalAlpha = before;
+    },
+    shade(colour, alpha, x, y, width, height) {
+      g.save();
       Object.assign(g, { fillStyle: colours[colour], globalAlpha: alpha });
-      if (path) g.fill(path);
-      g.globalAlpha = 1;
+      g.fillRect(x, y, width, height);
+      g.restore();
     },
     line(...xy) {
       g.beginPath();
@@ -54,7 +71,7 @@ export function begin(canvas, colours) {
     },
     text(words, x, y, { align = "left", colour = "soft", bold = false, halo = false } = {}) {
       g.save();
-      g.font = `${bold ? "600 " : ""}12px ${colours.font}`;
+      g.font = `${bold ? "600 " : ""}${colours.size ?? 12}px ${colours.font}`;
       g.textAlign = align;
       pen.stroke("paper", 3); // so that it stays readable across a curve
       if (halo) g.strokeText(words, x, y);

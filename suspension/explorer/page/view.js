@@ -1,22 +1,31 @@
-// The view: it follows the sliders, puts the run into words, and plays it. It computes no physics.
+// The view: one scene, its panels, the words above them and what one can do with them. What one
+// moves is a model with get, set, on and save_changes: anywidget's, or that of a built page.
 
-import { countSteps, difference, judge, lookUp, makeRunner, readTables } from "./model.js";
-import { WHEEL, drawForces, drawRobot, drawStability } from "./panels.js";
-import { begin, show } from "./pen.js";
+import { makeMap } from "./map.js";
+import { readModel } from "./model.js";
+import { PANELS } from "./panels.js";
+import { begin, clamp, plain, show } from "./pen.js";
+import { makeScenes, momentOf, momentToShow } from "./scene.js";
+import { settingsOf } from "./state.js";
+import { pythonOf, savePicture, saveTable } from "./take.js";
+import { describe, describeMoment } from "./words.js";
 
 const SECONDS = 8; // one crossing, played
-const PAUSE = 250; // ms between two changes of the words, so that a screen reader can follow
-const STRIDE = 0.02; // an arrow key changes the speed by a factor of 10^0.02, 5 %
-const PANELS = { robot: drawRobot, forces: drawForces, stability: drawStability };
-const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "paper"];
-const SETTINGS = ["v", "k_index", "scheme_index", "dt_index"];
+const PAUSE = 700; // ms after the last change, until a screen reader is told
+const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "doubt", "paper"];
+const NUMBERS = ["v", "dt", "k", "c", "height", "sigma"];
+const SETTINGS = [...NUMBERS, "scheme_index"];
 
-function make(parent, tag, name, attributes = {}) {
+function make(parent, tag, name, attributes = {}, text = "") {
   const child = document.createElement(tag);
-  child.className = name;
+  if (name) child.className = name;
   for (const [key, value] of Object.entries(attributes)) child.setAttribute(key, value);
+  if (text) child.textContent = text;
   return parent.appendChild(child);
 }
+
+const button = (parent, text, attributes = {}) =>
+  make(parent, "button", "", { type: "button", ...attributes }, text);
 
 /** Change a text without making the page look for new elements. */
 function write(element, text) {
@@ -24,218 +33,447 @@ function write(element, text) {
   if (node.data !== text) node.data = text;
 }
 
-/** All that the panels and the words show at the sliders' present places. */
-function makeScene(model, data, runs, last) {
-  const [v, k, scheme, i] = SETTINGS.map((name) => model.get(name));
-  const { dts, distance } = data, dt = dts[i], fine = dts.length - 1, end = distance / v;
-  const robot = data.robot(k), step = data.step(scheme, k, i), J = countSteps(end, dt);
-  let { finest, truth } = last ?? {};
-  if (last?.v !== v || last?.k !== k) {
-    const reach = countSteps(end, dts[fine]), spare = Math.round(dts[0] / dts[fine]);
-    finest = runs.finest(robot, data.step(data.finest, k, fine), v, dts[fine], reach + spare);
-    truth = judge(finest, reach);
-  }
-  const run = runs.shown(robot, step, v, dt, J), verdict = judge(run, J);
-  const error = difference(run, finest, Math.round(dt / dts[fine]));
-  const same = i === fine && scheme === data.finest;
-  return { data, v, k, scheme, dt, end, robot, step, run, verdict, finest, truth, error, same };
-}
-
-/** Kept or lost; stable or not; how exact; what is shown at the moment. */
-function describe({ data, v, scheme, dt, step, verdict, truth, error, same, now }) {
-  const unit = (x, name, digits) => `${show(x, digits)}\u00a0${name}`;
-  const equals = (name, ...value) => `${name}\u00a0=\u00a0${unit(...value)}`; // on one line
-  const method = (i, dt) => `${data.schemes[i].name} at ${equals("Δt", 1000 * dt, "ms")}`;
-  const moment = (t, digits) => `${equals("t", t, "s", digits)}, ${equals("X", v * t, "m", digits)}`;
-  const place = ({ wheel, t }) => `${WHEEL[wheel]} wheel, ${moment(t)}`;
-  const contact = ({ lost }) => `contact ${lost ? "lost" : "kept"}`;
-  const most = Math.max(...step.growth), R = `|R| = ${most < 10 ? most.toFixed(5) : show(most, 4)}`;
-  const least = `smallest force ${unit(verdict.least, "N")}`;
-  const finest = `the finest step (${method(data.finest, data.dts.at(-1))})`;
-  const doubt = contact(truth) === contact(verdict) ? "" : `, which says: ${contact(truth)}`;
-  const where = verdict.lost ? `${place(verdict.lost)}; ${least}` : `${least}, ${place(verdict)}`;
-  return {
-    verdict: step.stable ? contact(verdict).replace("c", "C") : "Unstable run, so no verdict",
-    place: step.stable ? `: ${where}.` : ` (it says: ${contact(verdict)}, ${where}).`,
-    stability: `${method(scheme, dt)} is ` + (step.stable
-      ? `stable: no mode grows, the largest ${R}.`
-      : `unstable: a mode grows by ${R} every step.`),
-    error: same
-      ? "No step here is finer."
-      : `Forces differ by up to ${unit(error, "N", 2)} from ${finest}${doubt}.`,
-    moment: `Shown: ${moment(now.t, 4)}, ` +
-      `${equals("N₁", now.N[0], "N")}, ${equals("N₂", now.N[1], "N")}.`,
-  };
-}
-
-/** What ipywidgets' controls lack: names, values and states for screen readers, a key's stride. */
-function helpControls(box, clock) {
-  const set = (element, attributes) => {
-    for (const [name, value] of Object.entries(attributes)) {
-      if (element && element.getAttribute(name) !== value) element.setAttribute(name, value);
-    }
-  };
-  for (const control of box.querySelectorAll(".widget-inline-hbox, .widget-toggle-buttons")) {
-    const label = control.querySelector(".widget-label").textContent;
-    const readout = control.querySelector(".widget-readout");
-    const value = readout?.style.display === "none" ? clock : readout?.textContent;
-    const typed = control.classList.contains("se-typed"); // the others' values cannot be edited
-    set(control.querySelector("[role=slider]"), { "aria-label": label, "aria-valuetext": value });
-    set(readout, typed ? { role: "textbox", "aria-label": label } : { contenteditable: "false" });
-    for (const choice of control.querySelectorAll("button")) {
-      set(choice.parentElement, { role: "group", "aria-label": label });
-      set(choice, { "aria-pressed": String(choice.classList.contains("mod-active")) });
-    }
-    if (!typed || control.dataset.keys) continue;
-    control.dataset.keys = "helped"; // this slider has no steps, so that a typed value is exact
-    control.addEventListener("keydown", (event) => {
-      const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
-      if (!way || event.target === readout) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const slider = control.querySelector(".slider").noUiSlider;
-      slider.set(slider.get() + way * STRIDE);
-    }, true);
-  }
-}
-
-/** Take away the still picture that stood here: the nearest one above the view. */
-function hideStill(root) {
-  for (let node = root.parentElement; node; node = node.parentElement) {
-    const picture = node.querySelector(":scope > .suspension-explorer-still");
-    if (picture) return void (picture.style.display = "none");
-  }
-}
-
-function render({ model, el }) {
-  const data = readTables(model.get("facts"), model.get("tables"));
-  const runs = { finest: makeRunner(data), shown: makeRunner(data) };
-  const root = make(el, "div", "suspension-explorer");
-  const bar = make(root, "div", "se-bar");
-  const button = make(bar, "button", "se-play", { type: "button" });
-  const clock = make(bar, "span", "se-clock");
-  const words = make(root, "p", "se-words", { role: "status", "aria-live": "polite" });
-  const parts = ["verdict", "place", "stability", "error", "moment"].map((name) => {
-    if (name !== "place") words.append(" ");
-    return [name, make(words, "span", `se-${name}`)];
+/** Draw the explorer into `el`; what comes back are handles for a page and for tests. */
+export function render(model, el) {
+  const facts = model.get("facts"),
+    data = readModel(facts, model.get("tables"));
+  const sceneAt = makeScenes(data),
+    initial = settingsOf(model);
+  const root = make(el, "div", facts.compact ? "suspension-explorer se-small" : "suspension-explorer");
+  const box = root.closest(".suspension-explorer-box") ?? root;
+  const status = make(root, "div", "se-status"),
+    headline = make(status, "strong", "se-headline");
+  const spoken = make(root, "div", "se-spoken", { role: "status" });
+  const stage = make(root, "div", "se-panels", { "data-view": model.get("view") });
+  const panels = facts.panels.map((name) => {
+    const canvas = make(stage, "canvas", `se-${name}`, { role: "img" });
+    return { ...PANELS[name], canvas, cache: document.createElement("canvas"), size: [0, 0] };
   });
-  const panels = make(root, "div", "se-panels", { "data-view": model.get("view") });
-  const canvases = Object.entries(PANELS).map(([name, draw]) =>
-    [make(panels, "canvas", `se-${name}`, { role: "img" }), draw]);
+  const tabs = make(root, "div", "se-tabs", { role: "group", "aria-label": "Below the robot" });
+  const bar = make(root, "div", "se-bar"),
+    play = button(bar, "", { class: "se-play" });
+  const moment = make(bar, "input", "se-moment", {
+    type: "range",
+    min: 0,
+    max: 1,
+    step: "any",
+    "aria-label": "Moment",
+  });
+  const clock = make(bar, "span", "se-clock"),
+    tools = make(root, "div", "se-tools");
+  const details = make(root, "p", "se-details");
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  let scene = null, stale = true, frame = 0, timer = 0, playing = null, drawn = "";
+  let scene = null,
+    pinned = null,
+    mapped = false,
+    map = null,
+    held = null,
+    frame = 0,
+    timer = 0,
+    playing = null,
+    colours = null;
+  let stale = true,
+    redraw = true,
+    looks = 0; // counts changes of colours and pins
+  const settled = [],
+    numbers = () => Object.fromEntries(SETTINGS.map((name) => [name, model.get(name)]));
 
-  const update = () => {
-    if (stale) scene = makeScene(model, data, runs, scene);
+  const compute = () => {
+    if (stale) scene = sceneAt(numbers());
     stale = false;
-    scene.now = lookUp(scene.run, ((model.get("time") / data.moments) * scene.end) / scene.dt);
-    const pace = SECONDS / scene.end;
-    write(clock, `t = ${show(scene.now.t)} s, played ` +
-      (pace < 1 ? `${show(1 / pace, 2)} × faster` : `${show(pace, 2)} × slower`) + " than real");
+    return scene;
   };
-  const speak = () => {
-    timer = 0;
-    const text = describe(scene);
-    if (playing) delete text.moment; // it would never stop talking
-    for (const [name, part] of parts) {
-      if (name in text) write(part, text[name]);
-    }
-    words.classList.toggle("se-alarm", Boolean(scene.verdict.lost) || !scene.step.stable);
-    [`The robot on the road. ${text.moment ?? "It is moving."}`,
-      `Normal forces against time. ${text.verdict}${text.place}`,
-      `Stability region and the four modes. ${text.stability}`,
-    ].forEach((label, i) => canvases[i][0].setAttribute("aria-label", label));
-    const box = root.closest(".suspension-explorer-box");
-    if (box) helpControls(box, clock.textContent);
+  const currentMap = () => {
+    const { c, height, sigma } = scene.settings,
+      of = [c, height, sigma].join();
+    if (map?.of !== of) map = { of, picture: makeMap(data, scene.settings) };
+    return map.picture;
+  };
+  const options = () => ({
+    now: momentOf(scene, model.get("time")),
+    motion: model.get("motion"),
+    pinned,
+    held,
+    scene,
+    map: mapped && currentMap(),
+  });
+
+  // ---- drawing
+
+  const readColours = () => {
+    const style = getComputedStyle(root);
+    colours = { font: style.fontFamily };
+    for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`).trim();
+    looks++;
+    redraw = true;
   };
   const paint = () => {
     frame = 0;
-    update(); // before the layout is asked for, so that once is enough
-    if (!root.clientWidth) return; // not on the page yet; its first size will bring us back
-    const style = getComputedStyle(root), colours = { font: style.fontFamily };
-    for (const name of COLOURS) colours[name] = style.getPropertyValue(`--se-${name}`);
-    const { k, scheme, dt } = scene, { clientWidth, clientHeight } = canvases[2][0];
-    const modes = [k, scheme, dt, clientWidth, clientHeight, devicePixelRatio, colours.ink].join();
-    for (const [canvas, draw] of canvases) {
-      if (draw !== drawStability || modes !== drawn) draw(begin(canvas, colours), scene);
+    compute();
+    if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
+    if (!colours) readColours();
+    const shown = options(),
+      { now, motion } = shown;
+    shown.ghost = motion === "flying" ? now.linear : scene.flight.events.length ? now.flying : null;
+    for (const panel of panels) {
+      const [w, h] = panel.size;
+      if (!w || !h) continue; // not shown on a phone
+      if (redraw && panel.still) {
+        const key = [...panel.key(scene, shown), w, h, devicePixelRatio, looks].join();
+        if (key !== panel.drawn) panel.still(begin(panel.cache, w, h, colours), scene, shown);
+        panel.drawn = key;
+      }
+      const pen = begin(panel.canvas, w, h, colours);
+      if (panel.still) pen.g.drawImage(panel.cache, 0, 0, w, h);
+      panel.live?.(pen, scene, shown);
     }
-    if (!drawn) speak();
-    drawn = modes; // the region does not change with the speed or the moment
-    timer ||= setTimeout(speak, PAUSE);
-    root.dispatchEvent(new Event("painted")); // for those who measure
+    if (redraw) speak();
+    redraw = Boolean(shown.map) && shown.map.work(); // a map grows over several frames
+    if (redraw) schedule();
+    write(clock, describeMoment(now, motion));
+    moment.value = model.get("time");
+    root.dispatchEvent(new Event("painted", { bubbles: true })); // for those who measure
   };
-  const schedule = () => {
-    frame ||= requestAnimationFrame(paint);
+  const schedule = () => (frame ||= requestAnimationFrame(paint));
+  const change = () => {
+    stale = redraw = true;
+    schedule();
+    announceLater();
   };
 
-  const setTime = (time) => {
-    model.set("time", time);
+  // ---- words
+
+  const speak = () => {
+    const { tone, headline: text, details: more } = describe(scene, model.get("motion"));
+    write(headline, text);
+    write(details, more.join(" "));
+    status.dataset.tone = tone;
+    for (const { name, title, canvas } of panels) {
+      canvas.setAttribute("aria-label", `${title}. ${name === "speeds" ? describeSpeeds() : text}`);
+    }
+    const bands = bandsOf(scene.curve, data.ranges.v);
+    if (bands !== box.dataset.bands) {
+      box.dataset.bands = bands;
+      box.style.setProperty("--se-bands", bands);
+    }
+  };
+  const describeSpeeds = () => {
+    const { critical, kept } = scene.curve,
+      speeds = critical.map((v) => show(v)).join(", ");
+    return (
+      `Contact is ${kept ? "kept" : "lost"} at the lowest speed` +
+      (speeds ? `, and the verdict turns at ${speeds} m/s.` : " and at every other.")
+    );
+  };
+  const announceLater = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      write(spoken, headline.textContent);
+      if (!playing) for (const listener of settled) listener();
+    }, PAUSE);
+  };
+
+  // ---- what moves the picture
+
+  const set = (changes) => {
+    for (const [name, value] of Object.entries(changes)) model.set(name, value);
     model.save_changes();
   };
-  const stopPlaying = () => {
+  /** Set many things at once; a time of null means: where it is worth looking. */
+  const apply = ({ scheme, motion, time, ...others }) => {
+    const changes = {};
+    for (const name of NUMBERS) {
+      const value = others[name];
+      if (typeof value === "number" && Number.isFinite(value))
+        changes[name] = clamp(value, ...data.ranges[name].slice(0, 2));
+    }
+    const index = data.schemes.findIndex(({ name }) => name.toLowerCase() === String(scheme).toLowerCase());
+    if (index >= 0) changes.scheme_index = index;
+    if (motion === "linear" || motion === "flying") changes.motion = motion;
+    set(changes);
+    if (time === null) set({ time: momentToShow(compute()) });
+    else if (time !== undefined) set({ time: clamp(time, 0, 1) });
+  };
+  const stop = () => {
     playing = null;
-    write(button, calm.matches ? "Step" : "▶\uFE0E Play");
+    write(play, calm.matches ? "Step" : "▶\uFE0E Play");
     schedule();
   };
   const advance = (now) => {
-    if (!playing) return;
-    playing.start ??= now - (1000 * SECONDS * playing.time) / data.moments;
-    const time = Math.round(((now - playing.start) / 1000 / SECONDS) * data.moments);
-    playing.time = Math.min(time, data.moments);
-    setTime(playing.time);
-    if (playing.time < data.moments) requestAnimationFrame(advance);
-    else stopPlaying();
+    if (!playing || !root.isConnected) return;
+    playing.start ??= now - 1000 * SECONDS * playing.time;
+    playing.time = Math.min((now - playing.start) / 1000 / SECONDS, 1);
+    set({ time: playing.time });
+    if (playing.time < 1) requestAnimationFrame(advance);
+    else stop();
   };
-  button.addEventListener("click", () => {
-    const time = model.get("time") % data.moments; // from the end it starts again
-    if (playing) return stopPlaying();
-    if (calm.matches) return setTime(Math.min(time + data.moments / 20, data.moments));
+  play.addEventListener("click", () => {
+    const time = model.get("time") < 1 ? model.get("time") : 0; // from the end it starts again
+    if (playing) return stop();
+    if (calm.matches) return set({ time: Math.min(time + 0.05, 1) });
     playing = { time };
-    write(button, "❚❚ Pause");
+    write(play, "❚❚ Pause");
     requestAnimationFrame(advance);
   });
+  moment.addEventListener("input", () => set({ time: Number(moment.value) }));
+  moment.addEventListener("keydown", (event) => {
+    const way = {
+      ArrowRight: 0.005,
+      ArrowUp: 0.005,
+      ArrowLeft: -0.005,
+      ArrowDown: -0.005,
+      PageUp: 0.05,
+      PageDown: -0.05,
+    }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    set({ time: clamp(model.get("time") + way, 0, 1) });
+  });
 
-  const changes = {
-    time() {
-      if (playing && model.get("time") !== playing.time) stopPlaying(); // somebody took the slider
-      schedule();
-    },
-    view() {
-      panels.dataset.view = model.get("view");
-    },
-  };
-  for (const name of SETTINGS) {
-    changes[name] = () => {
-      stale = true;
-      if (scene && !frame) update(); // the wait for the next frame is put to use
+  // ---- grabbing things in the pictures
+
+  for (const panel of panels) {
+    const { canvas } = panel,
+      at = ({ clientX, clientY }) => {
+        const { left, top } = canvas.getBoundingClientRect();
+        return [clientX - left, clientY - top];
+      };
+    let hold = null;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button || !scene) return;
+      hold = panel.grab(...at(event), options());
+      if (!hold) return;
+      canvas.setPointerCapture(event.pointerId);
+      canvas.style.cursor = hold.cursor;
+      if (hold.holds) held = panel.name;
+      if (hold.at) move(hold.at);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (hold) return move(hold.to(...at(event)));
+      if (scene && event.pointerType === "mouse")
+        canvas.style.cursor = panel.grab(...at(event), options())?.cursor.replace("grabbing", "grab") ?? "";
+    });
+    const move = ({ time, ...others }) => {
+      stopPlaying();
+      if (Object.keys(others).length) apply({ ...others, time });
+      else set({ time });
+    };
+    const release = () => {
+      if (!hold) return;
+      if (held) [held, redraw] = [null, true];
+      hold = null;
+      canvas.style.cursor = "";
       schedule();
     };
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+      canvas.addEventListener(name, release);
   }
-  for (const [name, change] of Object.entries(changes)) model.on(`change:${name}`, change);
-  const themes = new MutationObserver(paint); // at once, or paper would get the dark picture
+  const stopPlaying = () => playing && stop();
+
+  // ---- tools
+
+  function addTools() {
+    if (facts.compact) return;
+    for (const [view, text] of [
+      ["speeds", "Speeds"],
+      ["forces", "Forces"],
+      ["stability", "Stability"],
+    ]) {
+      button(tabs, text, { "data-view": view }).addEventListener("click", () => set({ view }));
+    }
+    listeners.view();
+    const motions = make(tools, "div", "se-choice", { role: "group", "aria-label": "After lift-off" });
+    for (const [motion, text] of [
+      ["linear", "Linear"],
+      ["flying", "Flying"],
+    ]) {
+      const choice = button(motions, text, {
+        "data-motion": motion,
+        "aria-pressed": String(model.get("motion") === motion),
+      });
+      choice.addEventListener("click", () => set({ motion }));
+    }
+    const presets = make(tools, "div", "se-presets", {
+      role: "group",
+      "aria-label": "Speeds of the problem set",
+    });
+    for (const v of data.asked)
+      button(presets, `${plain(v)} m/s`).addEventListener("click", () => apply({ v, time: null }));
+    for (const [text, settings] of data.presets)
+      button(presets, text).addEventListener("click", () => apply({ ...initial, time: null, ...settings }));
+    const more = make(tools, "div", "se-more", { role: "group", "aria-label": "This picture" });
+    const pin = button(more, "Pin to compare", { "aria-pressed": "false" });
+    pin.addEventListener("click", () => {
+      pinned = pinned ? null : snapshot();
+      pin.setAttribute("aria-pressed", String(Boolean(pinned)));
+      write(pin, pinned ? `Unpin ${plain(pinned.v, 3)} m/s` : "Pin to compare");
+      looks++;
+      redraw = true;
+      schedule();
+    });
+    button(more, "Reset").addEventListener("click", () => {
+      if (pinned) pin.click();
+      if (mapped) over.click();
+      stopPlaying();
+      apply(initial);
+    });
+    const over = button(more, "Map over v and k", { "aria-pressed": "false" });
+    over.addEventListener("click", () => {
+      mapped = !mapped;
+      over.setAttribute("aria-pressed", String(mapped));
+      looks++;
+      redraw = true;
+      schedule();
+    });
+    const menu = make(more, "details", "se-menu");
+    make(menu, "summary", "", {}, "Take away");
+    const list = make(menu, "div", "se-list"),
+      code = make(list, "pre", "se-python", { tabindex: 0, "aria-label": "These settings in Python" });
+    button(list, "Picture (PNG)").addEventListener("click", () =>
+      savePicture(
+        panels.map(({ canvas }) => canvas),
+        headline.textContent,
+        colours,
+      ),
+    );
+    button(list, "Numbers (CSV)").addEventListener("click", () => saveTable(scene, model.get("motion")));
+    const copy = button(list, "Copy the Python lines");
+    copy.addEventListener("click", async () => {
+      try {
+        await navigator.clipboard.writeText(code.textContent);
+        write(copy, "Copied");
+      } catch {
+        getSelection().selectAllChildren(code);
+        write(copy, "Selected: copy it with your keys");
+      }
+    });
+    const fill = () =>
+      menu.open && write(code, pythonOf(data, numbers(), model.get("scheme_index"), model.get("motion")));
+    menu.addEventListener("toggle", fill);
+    settled.push(fill, () => write(copy, "Copy the Python lines"));
+    if (document.fullscreenEnabled) {
+      const full = button(more, "Full screen");
+      full.addEventListener("click", () =>
+        document.fullscreenElement ? document.exitFullscreen() : box.requestFullscreen(),
+      );
+    }
+  }
+  /** What is kept of a run to compare others with. */
+  function snapshot() {
+    const { run, flight, v, curve, robot, dt } = scene,
+      kept = model.get("motion") === "flying" || !run ? flight : run;
+    return {
+      v,
+      dt: kept.dt,
+      N: kept.N.map((N) => N.slice(0, kept.J + 1)),
+      least: curve.least.map((N) => N.slice()),
+      z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
+    };
+  }
+
+  // ---- following the model, the theme and the size
+
+  const listeners = {
+    time() {
+      if (playing && model.get("time") !== playing.time) stop(); // somebody took the slider
+      schedule();
+      if (!playing) announceLater();
+    },
+    view() {
+      const view = model.get("view");
+      stage.dataset.view = view;
+      for (const tab of tabs.children) {
+        tab.setAttribute(
+          "aria-pressed",
+          String(tab.dataset.view === view || (view === "robot" && tab.dataset.view === "forces")),
+        );
+      }
+    },
+    motion() {
+      redraw = true;
+      for (const choice of tools.querySelectorAll("[data-motion]")) {
+        choice.setAttribute("aria-pressed", String(choice.dataset.motion === model.get("motion")));
+      }
+      schedule();
+      announceLater();
+    },
+  };
+  addTools();
+  for (const name of SETTINGS) listeners[name] = change;
+  for (const [name, listener] of Object.entries(listeners)) model.on(`change:${name}`, listener);
+  const recolour = () => {
+    readColours();
+    paint(); // at once, or paper would get the dark picture
+  };
+  const themes = new MutationObserver(recolour);
   themes.observe(document.documentElement, { attributeFilter: ["data-theme"] });
   themes.observe(document.body, { attributeFilter: ["data-jp-theme-light"] });
-  const sizes = new ResizeObserver(() => {
-    hideStill(root);
+  const contrasts = matchMedia("(forced-colors: active)");
+  contrasts.addEventListener("change", recolour);
+  const sizes = new ResizeObserver((entries) => {
+    for (const { target, contentRect } of entries) {
+      const panel = panels.find(({ canvas }) => canvas === target);
+      panel.size = [Math.round(contentRect.width), Math.round(contentRect.height)];
+    }
+    redraw = true;
     schedule();
   });
-  for (const [canvas] of canvases) sizes.observe(canvas);
-  calm.addEventListener("change", stopPlaying);
-  stopPlaying();
-  root.trajectory = () => { // for those who compare: the run as it is shown, in plain arrays
-    update();
-    const { v, dt, k, scheme, run } = scene;
-    return { v, dt, k, scheme, W: run.W.map((w) => [...w]), N: run.N.map((N) => [...N]) };
+  for (const { canvas } of panels) sizes.observe(canvas);
+  calm.addEventListener("change", stop);
+  stop();
+  root.trajectory = () => {
+    // for those who compare: everything shown, in plain arrays
+    const { run, flight, curve, truth, settings } = compute(),
+      copy = (rows, J) => rows.map((row) => [...row.subarray(0, J + 1)]);
+    return {
+      ...settings,
+      W: run && copy(run.W, run.J),
+      N: run && copy(run.N, run.J),
+      verdict: run?.verdict,
+      exact: truth.verdict,
+      speeds: [...curve.speeds],
+      least: curve.least.map((N) => [...N]),
+      critical: curve.critical,
+      events: flight.events,
+      highest: flight.gaps.map((gap) => gap.subarray(0, flight.J + 1).reduce((a, b) => Math.max(a, b), 0)),
+      flightStep: flight.dt,
+    };
   };
-  return () => {
-    for (const [name, change] of Object.entries(changes)) model.off(`change:${name}`, change);
+  root.modesAt = () => {
+    // where the modes are drawn, in fractions of the panel, for tests that drag
+    const {
+      frame,
+      size: [w, h],
+    } = panels.find(({ name }) => name === "stability");
+    return compute().robot.modes.map(([re, im]) => [
+      frame.px(re * scene.dt) / w,
+      frame.py(im * scene.dt) / h,
+    ]);
+  };
+  const destroy = () => {
+    for (const [name, listener] of Object.entries(listeners)) model.off(`change:${name}`, listener);
     themes.disconnect();
     sizes.disconnect();
-    calm.removeEventListener("change", stopPlaying);
+    calm.removeEventListener("change", stop);
+    contrasts.removeEventListener("change", recolour);
     clearTimeout(timer);
     cancelAnimationFrame(frame);
     playing = null;
   };
+  return {
+    apply,
+    destroy,
+    settings: () => settingsOf(model),
+    onSettled: (listener) => settled.push(listener),
+  };
 }
 
-export default { render };
+/** Kept and lost speeds as the background of a slider. */
+function bandsOf({ critical, kept }, [low, high]) {
+  const place = (v) => `${((100 * Math.log(v / low)) / Math.log(high / low)).toFixed(2)}%`;
+  const edges = ["0%", ...critical.map(place), "100%"];
+  const stops = edges
+    .slice(1)
+    .map((edge, i) => `var(--se-${kept === (i % 2 === 0) ? "region" : "alarm"}) ${edges[i]} ${edge}`);
+  return `linear-gradient(to right, ${stops.join(", ")})`;
+}

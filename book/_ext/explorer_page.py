@@ -1,0 +1,106 @@
+"""Sphinx extension: explorers in built pages, without a widget manager.
+
+An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`). Pages
+that hold one get its script and style sheet; the widgets' state, which only a kernel's front end
+could use, is left out. The directive ``{explorer} name`` shows an explorer that a notebook has
+named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or
+of the page they point to.
+"""
+
+import re
+from pathlib import Path
+
+from docutils import nodes
+from myst_nb.sphinx_ import NbMetadataCollector
+from results import find
+from sphinx.addnodes import pending_xref
+from sphinx.transforms.post_transforms import SphinxPostTransform
+from sphinx.util.docutils import SphinxDirective
+
+from suspension.explorer import page_script, page_style
+
+PREFIX = "explore:"
+BOX = "suspension-explorer-box"
+STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
+FILES = {"explorer.js": page_script, "explorer.css": page_style}
+
+
+def write_files(app):
+    """Write script and style to ``_static``, before Sphinx computes their checksums."""
+    if app.builder.format != "html":
+        return
+    for name, text in FILES.items():
+        path = Path(app.outdir, "_static", name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text(), encoding="utf-8")
+
+
+def add_files(app, page, template, context, doctree):
+    """Load script and style on the pages with an explorer; the widgets' state on none."""
+    if doctree is None:
+        return
+    NbMetadataCollector.get_js_files(app.env, page).clear()
+    if any(BOX in node.astext() for node in doctree.findall(nodes.raw)):
+        app.add_js_file("explorer.js", loading_method="defer")
+        app.add_css_file("explorer.css")
+
+
+class ExplorerDirective(SphinxDirective):
+    """A named explorer of a notebook.
+
+    The content may be a figure: then the explorer stands above its caption, and the figure's own
+    image is what readers without scripts, and paper, get instead.
+    """
+
+    required_arguments = 1
+    has_content = True
+
+    def run(self):
+        """Show its HTML, with the content's picture in place of its own."""
+        found = find(self.env, self.arguments[0], self.get_location())["data"]
+        html = found.get("text/html", self.arguments[0])
+        content = nodes.Element()
+        self.state.nested_parse(self.content, self.content_offset, content)
+        images = list(content.findall(nodes.image))
+        if not images:
+            return [nodes.raw("", html, format="html")]
+        images[0]["classes"].append("se-instead")
+        live = nodes.raw("", STILL.sub("", html), format="html")
+        images[0].parent.insert(images[0].parent.index(images[0]), live)
+        return content.children
+
+
+class ExplorerLinks(SphinxPostTransform):
+    """Links that set a picture: they lead to no anchor, and MyST must not look for one."""
+
+    default_priority = 7  # before plain_links and MyST
+
+    def run(self, **kwargs):
+        """Visit the links of one page."""
+        for link in list(self.document.findall(pending_xref)):
+            page, settings = self.target(link)
+            if settings is None:
+                continue
+            here = self.env.docname
+            uri = "" if page is None else self.app.builder.get_relative_uri(here, page)
+            new = nodes.reference("", "", *link.children, internal=True, refuri=f"{uri}#{settings}")
+            new.children = [child.deepcopy() for child in link.children]
+            link.replace_self(new)
+
+    def target(self, link):
+        """Page, None for this one, and settings of a link; None, None for any other link."""
+        target, anchor = link["reftarget"], link.get("reftargetid") or ""
+        if anchor.startswith(PREFIX):
+            return (target if target != self.env.docname else None), anchor
+        if target.startswith(PREFIX):
+            return None, target
+        return None, None
+
+
+def setup(app):
+    """Connect to Sphinx."""
+    app.add_directive("explorer", ExplorerDirective)
+    app.add_post_transform(ExplorerLinks)
+    app.connect("builder-inited", write_files)
+    app.connect("html-page-context", add_files, priority=400)  # before MyST-NB adds scripts
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

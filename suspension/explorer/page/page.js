@@ -1,0 +1,99 @@
+// For a built page: brings its explorers to life without a kernel or a widget manager, and lets the
+// address and the phrases in the text set their pictures.
+
+import { bindControls } from "./controls.js";
+import { render } from "./view.js";
+import { readHash, settingsOf, writeHash } from "./state.js";
+
+const PREFIX = "#explore:";
+const PAUSE = 400; // ms after the last change, until the address says it
+
+/** What anywidget gives a view in JupyterLab: a model with get, set, on, off and save_changes. */
+function makeModel(values) {
+  const listeners = new Map();
+  return {
+    get: (name) => values[name],
+    set(name, value) {
+      if (Object.is(values[name], value)) return;
+      values[name] = value;
+      for (const listener of [...(listeners.get(`change:${name}`) ?? [])]) listener();
+    },
+    on(event, listener) {
+      if (!listeners.has(event)) listeners.set(event, new Set());
+      listeners.get(event).add(listener);
+    },
+    off: (event, listener) => listeners.get(event)?.delete(listener),
+    save_changes() {},
+  };
+}
+
+const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+
+function start(box) {
+  const values = JSON.parse(box.querySelector(".se-state").textContent);
+  for (const [name, text] of Object.entries(values.tables)) values.tables[name] = bytes(text);
+  const model = makeModel(values),
+    place = box.querySelector(".se-place");
+  const view = render(model, place);
+  bindControls(box, model, view);
+  box.classList.add("se-live");
+  return { box, model, view, initial: settingsOf(model) };
+}
+
+function begin() {
+  const explorers = [...document.querySelectorAll(".suspension-explorer-box.se-page")].map(start);
+  if (!explorers.length) return;
+  let timer = 0,
+    quiet = false;
+
+  /** Set the picture that a hash names, the others to where they began; true if it names one. */
+  const follow = (hash) => {
+    const [index, settings] = hash.startsWith(PREFIX) ? readHash(hash.slice(PREFIX.length)) : [0, null];
+    quiet = true;
+    explorers.forEach(({ view, initial }, i) => {
+      if (i === index && settings) view.apply({ ...initial, time: null, ...settings });
+      else if (!settings) view.apply(initial);
+    });
+    quiet = false;
+    return settings ? explorers[index] : null;
+  };
+  const show = (explorer) => {
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    explorer?.box.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
+  };
+
+  explorers.forEach(({ view, initial }, index) => {
+    view.onSettled(() => {
+      if (quiet) return;
+      clearTimeout(timer);
+      timer = setTimeout(() => {
+        const text = writeHash(view.settings(), initial, index);
+        const others = location.hash && !location.hash.startsWith(PREFIX);
+        if (!text && others) return;
+        const bare = location.pathname + location.search;
+        history.replaceState(history.state, "", text ? PREFIX + text : bare);
+      }, PAUSE);
+    });
+    view.link = () => new URL(PREFIX + writeHash(view.settings(), initial, index), location.href).href;
+  });
+  document.addEventListener("click", (event) => {
+    const link = event.target.closest?.(`a[href^="${PREFIX}"]`);
+    if (!link || event.ctrlKey || event.metaKey || event.shiftKey || event.button) return;
+    event.preventDefault();
+    const hash = link.getAttribute("href");
+    if (location.hash !== hash) history.pushState(null, "", hash);
+    show(follow(hash));
+  });
+  addEventListener("popstate", () => {
+    clearTimeout(timer);
+    if (!location.hash || location.hash.startsWith(PREFIX)) follow(location.hash);
+  });
+  if (location.hash.startsWith(PREFIX)) {
+    const found = follow(location.hash);
+    if (document.readyState === "complete") show(found);
+    else addEventListener("load", () => show(found), { once: true });
+  }
+}
+
+if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", begin);
+else begin();

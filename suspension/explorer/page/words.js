@@ -1,0 +1,120 @@
+// What the pictures say, in words: never more certain than the numbers.
+
+import { show } from "./pen.js";
+
+export const WHEEL = ["rear", "front"];
+const CLOSE = 1e-5; // N; forces that differ by less are called equal
+
+export const unit = (x, name, digits) => `${show(x, digits)}\u00a0${name}`;
+const equals = (name, ...value) => `${name}\u00a0=\u00a0${unit(...value)}`; // on one line
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
+/**
+ * `tone` is "kept", "lost" or "doubt" (where the run and the exact answer differ, or there is no
+ * verdict); `headline` comes before anything else, `details` after it.
+ */
+export function describe(scene, motion) {
+  return motion === "flying" ? describeFlight(scene) : describeRun(scene);
+}
+
+const place = ({ v }, t, digits) => `${equals("t", t, "s", digits)}, ${equals("X", v * t, "m", digits)}`;
+const wheel = (scene, { wheel, t }) => `${WHEEL[wheel]} wheel, ${place(scene, t)}`;
+const least = (scene, verdict) => `least force ${unit(verdict.least, "N")} (${wheel(scene, verdict)})`;
+
+function outcome(scene, verdict) {
+  if (verdict.lost) return `contact lost (${wheel(scene, verdict.lost)})`;
+  return `contact kept, ${least(scene, verdict)}`;
+}
+
+/** Whether a run tells another story than the exact motion. */
+export function disagrees({ run, truth, dt }) {
+  const [a, b] = [run.verdict.lost, truth.verdict.lost];
+  if (!a !== !b) return true;
+  return Boolean(a) && (a.wheel !== b.wheel || Math.abs(a.t - b.t) > 2 * dt);
+}
+
+function describeRun(scene) {
+  const { run, truth, stable, scheme, dt, growths, data } = scene,
+    exact = truth.verdict;
+  const method = `${scheme.name} at ${equals("Δt", 1000 * dt, "ms")}`,
+    details = [];
+  const most = Math.max(...growths),
+    R = `|R|\u00a0=\u00a0${most < 10 ? most.toFixed(5) : show(most, 4)}`;
+  let tone, headline;
+  if (!run) {
+    [tone, headline] = ["doubt", `${method} cannot take this step. Exactly: ${outcome(scene, exact)}.`];
+    return { tone, headline, details: details.concat(spring(scene)) };
+  }
+  if (!stable) {
+    tone = "doubt";
+    headline = `Unstable: ${method} makes a mode grow by ${R} every step. Exactly: ${outcome(scene, exact)}.`;
+  } else if (disagrees(scene)) {
+    tone = "doubt";
+    const [a, b] = [run.verdict.lost, exact.lost];
+    const fault = !a
+      ? "misses a loss of contact"
+      : b
+        ? "finds another loss of contact"
+        : "finds a loss of contact that is none";
+    headline = `This run ${fault}. Exactly: ${outcome(scene, exact)}.`;
+    details.push(`The run says: ${outcome(scene, run.verdict)}.`);
+  } else {
+    tone = run.verdict.lost ? "lost" : "kept";
+    headline = `${capital(outcome(scene, run.verdict))}.`;
+  }
+  if (stable) {
+    if (run.verdict.lost && tone === "lost")
+      details.push(`${capital(least(scene, run.verdict))}, in a model whose ground can pull.`);
+    details.push(`${method} is stable: the largest ${R}.`);
+    details.push(
+      run.error < CLOSE
+        ? `Its forces are exact to ${unit(CLOSE, "N", 1)}.`
+        : `Its forces differ by up to ${unit(run.error, "N", 2)} from the exact ones.`,
+    );
+  }
+  return { tone, headline, details: details.concat(spring(scene)), data };
+}
+
+function spring({ truth, data }) {
+  if (!truth.beyond.length) return [];
+  return [
+    `From ${equals("t", truth.beyond[0][0], "s")} a spring is compressed further than it was measured (${unit(1000 * data.springEnd, "mm")}).`,
+  ];
+}
+
+function describeFlight(scene) {
+  const { flight, data } = scene,
+    { events, airtime } = flight;
+  if (!events.length) {
+    return {
+      tone: "kept",
+      headline: "No wheel leaves the ground: flying and linear are the same.",
+      details: spring(scene),
+    };
+  }
+  const first = events[0],
+    landings = events.filter(({ kind }) => kind === "landing");
+  const times = [0, 1]
+    .filter((i) => airtime[i] > 0)
+    .map((i) => `${WHEEL[i]} ${unit(1000 * airtime[i], "ms")}`);
+  const hardest = landings.reduce((most, event) => (event.force > most.force ? event : most), { force: 0 });
+  const details = [`In the air: ${times.join(", ")} of ${unit(1000 * scene.end, "ms")}.`];
+  if (hardest.force > CLOSE)
+    details.push(`Hardest landing: ${wheel(scene, hardest)}, with ${unit(hardest.force, "N")} at once.`);
+  details.push(`Steps of ${unit(1000 * flight.dt, "ms")}, parted where a wheel leaves or lands.`);
+  const count = events.filter(({ kind }) => kind === "lift-off").length;
+  const how = count === 1 ? "once" : `${count} times`;
+  return {
+    tone: "lost",
+    headline: `Off the ground ${how}, first the ${wheel(scene, first)}.`,
+    details: details.concat(spring(scene)),
+    data,
+  };
+}
+
+/** The moment shown, for the clock. */
+export function describeMoment(now, motion) {
+  const { t, X } = now,
+    N = now[motion].N;
+  return `t\u00a0=\u00a0${show(t)}\u00a0s   X\u00a0=\u00a0${show(X)}\u00a0m   N₁\u00a0=\u00a0${show(N[0])}\u00a0N   N₂\u00a0=\u00a0${show(N[1])}\u00a0N`;
+}

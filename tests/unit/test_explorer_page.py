@@ -1,0 +1,196 @@
+"""The page's own modules, run by Node: their numbers are Python's, and they know no physics."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from helpers import PARITY, ROOT, largest_difference
+from node import ask_page, node, random_settings, run_in_node, run_own_tests, unpack
+
+from suspension.contact import critical_speeds, margin
+from suspension.explorer import SCHEMES, Explorer, explore
+from suspension.flight import fly
+from suspension.road import GaussianBump, road_input
+from suspension.robot import Robot
+from suspension.schemes import Scheme
+from suspension.simulation import simulate, steps
+
+BUMP = GaussianBump()
+ROBOT = Robot(793.2, 793.2)
+LOPSIDED = Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)
+HEUN = Scheme("Heun", 2, a=[[0, 0], [1, 0]], b=[1 / 2, 1 / 2], c=[0, 1])
+SDIRK = Scheme("SDIRK", 2, a=[[1 / 4, 0], [1 / 2, 1 / 4]], b=[1 / 2, 1 / 2], c=[1 / 4, 3 / 4])
+
+
+def two_bumps(x):
+    (H1, d1), (H2, d2) = BUMP(x), GaussianBump(height=0.018, sigma=0.02, centre=0.85)(x)
+    return H1 + H2, d1 + d2
+
+
+@pytest.fixture(scope="module")
+def explorers():
+    schemes = (*SCHEMES, HEUN, SDIRK)
+    return {
+        "one bump": explore(ROBOT, BUMP, schemes=schemes).explorer,
+        "two bumps, unsymmetric": explore(LOPSIDED, two_bumps, schemes=schemes).explorer,
+        "undamped, short": explore(
+            Robot(400, 400, c1=0, c2=0), BUMP, distance=0.7, schemes=schemes
+        ).explorer,
+    }
+
+
+CASES = ["one bump", "two bumps, unsymmetric", "undamped, short"]
+
+
+def family_at(explorer, setting):
+    """The robot and the road at some settings."""
+    family = explorer.family
+    return (
+        family.robot_at(setting["k"], setting["c"]),
+        family.road_at(setting["height"], setting["sigma"]),
+    )
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_page_computes_what_simulate_computes(explorers, case, tmp_path):
+    explorer, rng = explorers[case], np.random.default_rng(3)
+    settings = list(random_settings(explorer, rng, 60))
+    settings[0] |= {"v": 0.1, "dt": 0.00025}
+    settings[1] |= {"v": 25.0, "dt": 0.2}
+    settings[2] |= explorer.family.own
+    settings[3] |= {"c": 0.0}
+    assert {setting["scheme_index"] for setting in settings} == set(range(6))
+    answers = ask_page(tmp_path, explorer, "run", settings)
+    for setting, answer in zip(settings, answers, strict=True):
+        robot, road = family_at(explorer, setting)
+        v, dt, scheme = setting["v"], setting["dt"], explorer.schemes[setting["scheme_index"]]
+        run = simulate(robot, road, v=v, dt=dt, tfinal=explorer.distance / v, scheme=scheme)
+        assert largest_difference(unpack(answer), run) < PARITY, setting
+        lost = answer["verdict"]["lost"]
+        assert (lost and (lost["wheel"] + 1, lost["t"])) == run.loss, setting
+        growths = np.abs(scheme.stability_function(robot.eigenvalues * dt))
+        np.testing.assert_allclose(np.sort(answer["growths"]), np.sort(growths), rtol=1e-6)
+
+
+@pytest.mark.parametrize("scheme_index", range(4))
+def test_stability_is_pythons_too_without_dampers(explorers, scheme_index, tmp_path):
+    explorer = explorers["undamped, short"]
+    settings = [
+        {**explorer.family.own, "v": 5.0, "dt": dt, "scheme_index": scheme_index}
+        for dt in (0.0003, 0.002, 0.03, 0.05, 0.1, 0.2)
+    ]
+    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "run", settings)):
+        stable = max(answer["growths"]) <= 1 + 1e-12
+        scheme = explorer.schemes[scheme_index]
+        assert stable == scheme.is_stable(explorer.family.robot.eigenvalues, setting["dt"])
+
+
+def test_what_a_run_is_judged_by_is_the_exact_margin(explorers, tmp_path):
+    explorer, rng = explorers["one bump"], np.random.default_rng(5)
+    settings = list(random_settings(explorer, rng, 60))
+    answers = ask_page(tmp_path, explorer, "truth", settings)
+    for setting, answer in zip(settings, answers, strict=True):
+        robot, road = family_at(explorer, setting)
+        exact = margin(robot, road, setting["v"])
+        assert answer["verdict"]["least"] == pytest.approx(exact, rel=1e-3, abs=2e-3), setting
+        if abs(exact) > 0.01:
+            assert bool(answer["verdict"]["lost"]) == (exact < 0), setting
+
+
+def test_the_curve_over_all_speeds_is_that_of_the_exact_margins(explorers, tmp_path):
+    explorer, rng = explorers["one bump"], np.random.default_rng(6)
+    own = explorer.family.own | {"v": 1.0, "dt": 0.001, "scheme_index": 0}
+    settings = [own, *random_settings(explorer, rng, 7)]
+    answers = ask_page(tmp_path, explorer, "curve", settings)
+    for setting, answer in zip(settings, answers, strict=True):
+        robot, road = family_at(explorer, setting)
+        least = np.min(answer["least"], axis=0)
+        for v, found in list(zip(answer["speeds"], least, strict=True))[::6]:
+            assert found == pytest.approx(margin(robot, road, v), abs=0.05), (v, setting)
+    critical = critical_speeds(ROBOT, BUMP, 0.1, 25)
+    np.testing.assert_allclose(answers[0]["critical"], critical, rtol=1e-4)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
+    explorer, rng = explorers[case], np.random.default_rng(8)
+    settings = list(random_settings(explorer, rng, 30))
+    for setting, v in zip(settings, (0.5, 0.8, 1.2, 2, 5, 8, 10, 20, 25)):
+        setting |= explorer.family.own | {"v": v}
+    switches = 0
+    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "flight", settings)):
+        robot, road = family_at(explorer, setting)
+        v = setting["v"]
+        flight = fly(robot, road, v=v, tfinal=explorer.distance / v, resolution=0.02)
+        events = [(event["wheel"] + 1, event["kind"]) for event in answer["events"]]
+        assert events == [(event.wheel, event.kind) for event in flight.events], setting
+        for found, event in zip(answer["events"], flight.events, strict=True):
+            assert found["t"] == pytest.approx(event.t, abs=2 * answer["dt"]), setting
+        highest = flight.gaps.max()
+        np.testing.assert_allclose(
+            answer["highest"], flight.gaps.max(axis=1), rtol=0, atol=0.01 * highest + 1e-9
+        )
+        switches += len(events)
+    assert switches > 30
+
+
+@dataclass(frozen=True)
+class Linked(Robot):
+    """A robot whose springs and dampers share their forces: another C and D, in Python alone."""
+
+    @property
+    def C(self):
+        return SHARE @ Robot(self.k1, self.k2, c1=self.c1, c2=self.c2).C
+
+    @property
+    def D(self):
+        return SHARE @ Robot(self.k1, self.k2, c1=self.c1, c2=self.c2).D
+
+
+SHARE = np.array([[0.8, 0.3], [0.1, 0.9]])
+
+
+def test_the_page_follows_a_model_that_only_python_knows(tmp_path):
+    explorer = explore(Linked(700, 900, c2=2.5), BUMP).explorer
+    settings = list(random_settings(explorer, np.random.default_rng(9), 12))
+    for setting in settings:
+        setting["dt"] = max(setting["dt"], 0.002)
+    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "run", settings)):
+        robot, road = family_at(explorer, setting)
+        v, dt, scheme = setting["v"], setting["dt"], explorer.schemes[setting["scheme_index"]]
+        R, G = scheme.one_step(robot.A, dt)
+        w, N = robot.equilibrium, []
+        for n in range(steps(1.25 / v, dt) + 1):
+            N.append(robot.C @ w + robot.D @ road_input(robot, road, v, n * dt))
+            F = [robot.B @ road_input(robot, road, v, (n + c) * dt) + robot.e for c in scheme.c]
+            w = R @ w + sum(g @ f for g, f in zip(G, F))
+        N = np.array(N).T
+        np.testing.assert_allclose(unpack(answer)[4:], N, rtol=0, atol=1e-8 * np.abs(N).max())
+
+
+def test_the_bundle_is_the_modules_joined(tmp_path):
+    (tmp_path / "bundle.js").write_text(Explorer._esm, encoding="utf-8")
+    printed = run_in_node(
+        tmp_path,
+        """
+        import * as apart from "./page/widget.js";
+        import * as joined from "./bundle.js";
+        for (const { default: exported, ...others } of [apart, joined]) {
+          const code = Object.entries(exported).map(([name, f]) => [name, String(f).length > 9]);
+          console.log(JSON.stringify([code, others]));
+        }
+        """,
+    )
+    apart, joined = printed.splitlines()
+    assert apart == joined == '[[["render",true]],{}]'
+
+
+def test_the_modules_own_tests_pass(tmp_path):
+    print(run_own_tests(tmp_path))
+
+
+def test_the_modules_are_formatted_and_have_no_lint():
+    biome = ROOT / "book" / "npm" / "node_modules" / "@biomejs" / "biome" / "bin" / "biome"
+    if not biome.exists():
+        pytest.skip("no Biome: 'npm ci' in book/npm, or 'make book', installs it")
+    print(node(ROOT, biome, "ci", "--error-on-warnings"))
