@@ -15,7 +15,7 @@
 
   const reach = () => {
     // What scrolls sideways can be reached by keyboard.
-    for (const box of document.querySelectorAll("article mjx-container, article span.math")) {
+    for (const box of document.querySelectorAll("article .katex-display, article span.math")) {
       if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
     }
@@ -32,7 +32,7 @@
   addEventListener("resize", reach);
   addEventListener("load", () => {
     reach();
-    // MathJax and the widgets add to the text later. A widget at work changes nothing of this.
+    // The widgets add to the text later. A widget at work changes nothing of this.
     const added = new MutationObserver((changes) => {
       if (changes.some(({ target }) => !target.closest(".jupyter-widgets"))) reach();
     });
