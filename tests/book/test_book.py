@@ -98,18 +98,37 @@ def test_no_script_style_image_or_font_is_on_another_host(book, page):
 
 @each_page
 def test_figures_have_alt_text_and_caption(book, page):
-    for image in parse(book / f"{page}.html").select("article img"):
-        alt = image.get("alt", "")
-        assert len(alt.split()) >= 3, f"alt text of {image['src']}: {alt!r}"
+    for image in parse(book / f"{page}.html").select("article img, article svg[role=img]"):
+        alt = image.get("alt") or image.get("aria-label", "")
+        assert len(alt.split()) >= 3, f"alt text of a figure on {page}: {alt!r}"
         assert not re.search(r"[0-9a-f]{16}|\.(png|svg|jpe?g)\b", alt), alt
-        if "suspension-explorer-still" in image.get("class", []):
-            continue  # stands in for the widget until the scripts run
+        if not image.find_parent("figure"):  # an explorer's still picture
+            assert "figure-svg" not in image.get("class", [])
+            continue
         caption = image.find_parent("figure").figcaption
-        assert len(caption.select_one(".caption-text").get_text().split()) >= 3, image["src"]
+        assert len(caption.select_one(".caption-text").get_text().split()) >= 3, alt
+
+
+@each_page
+def test_figures_follow_the_theme_and_the_width(book, page):
+    soup = parse(book / f"{page}.html")
+    figures = soup.select("article figure .figure-svg")
+    shapes = {shape["id"] for shape in soup.select(".shared-shapes [id]")}
+    for figure in figures:
+        assert int(figure["width"]) > 0 and int(figure["height"]) > 0
+        markup = str(figure)
+        assert "var(--figure-ink)" in markup or "var(--figure-paper)" in markup
+        assert not re.search(r"fill:\s*(#fff|#000|white|black)\b", markup)
+        assert set(re.findall(r'(?:href="|url\()#([\w.-]+)', markup)) <= shapes
+        assert not figure.select("[id]"), "two figures may have the same ids"
+    wide, narrow = (soup.select(f"figure .figure-svg.{name}") for name in ("if-wide", "if-narrow"))
+    assert len(wide) == len(narrow)
+    for figure in narrow:
+        assert int(figure["width"]) <= 400
 
 
 def test_the_landing_page_shows_a_figure(book):
-    assert parse(book / "book/index.html").select("article figure img")
+    assert parse(book / "book/index.html").select("article figure .figure-svg")
 
 
 @each_page
