@@ -15,7 +15,7 @@
 
   const reach = () => {
     // What scrolls sideways can be reached by keyboard.
-    for (const box of document.querySelectorAll("article .katex-display, article span.math")) {
+    for (const box of document.querySelectorAll("article .katex-display, .pst-scrollable-table-container")) {
       if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
     }
@@ -40,3 +40,10 @@
     if (article) added.observe(article, { childList: true, subtree: true });
   });
 })();
+
+// The theme's buttons, without inline handlers.
+addEventListener("click", (event) => {
+  const button = event.target.closest?.("[data-click]");
+  if (button?.dataset.click === "window.print()") print();
+  if (button?.dataset.click === "toggleFullScreen()") toggleFullScreen();
+});

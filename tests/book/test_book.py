@@ -6,24 +6,9 @@ from functools import cache
 from urllib.parse import unquote, urlsplit
 
 import pytest
-import yaml
 from bs4 import BeautifulSoup
-from helpers import ROOT
+from helpers import PAGES
 
-
-def files_of(entry):
-    """The page of a table-of-contents entry and all below it."""
-    if isinstance(entry, list):
-        return [page for item in entry for page in files_of(item)]
-    own = [entry[key] for key in ("root", "file") if key in entry]
-    below = [entry[key] for key in ("parts", "chapters", "sections", "entries") if key in entry]
-    return own + files_of(below)
-
-
-PAGES = [
-    re.sub(r"\.(md|ipynb)$", "", page)
-    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
-]
 each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
 
 

@@ -24,7 +24,7 @@ ONLY_IN = {
     "pandas": {"springs"},
     "statsmodels": {"springs"},
 }
-# What a room may use of another: the report shows figures, the explorer has a still one and a caption.
+# What a room may use of another: the report shows figures, the explorer a still one and a caption.
 NEIGHBOURS = {"figures": set(), "report": {"figures"}, "explorer": {"figures", "report"}}
 
 
