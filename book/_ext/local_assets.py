@@ -1,6 +1,6 @@
 """Sphinx extension: every script and font comes from the book itself, none from another host.
 
-npm has put MathJax, require.js and the widget manager into ``book/npm/node_modules``, by version
+npm has put require.js and the widget manager into ``book/npm/node_modules``, by version
 and integrity; anywidget's module comes from the installed wheel, so that both halves match.
 """
 
@@ -16,11 +16,6 @@ NODE_MODULES = HERE.parent / "npm" / "node_modules"
 WIDGETS = NODE_MODULES / "@jupyter-widgets/html-manager/dist"
 ANYWIDGET = Path(find_spec("anywidget").origin).parent / "nbextension" / "index.js"
 FILES = {
-    "mathjax": [
-        NODE_MODULES / "mathjax/es5/tex-chtml.js",
-        NODE_MODULES / "mathjax/es5/output/chtml/fonts/woff-v2",
-        NODE_MODULES / "mathjax/es5/input/tex/extensions",
-    ],
     "widgets": [
         NODE_MODULES / "requirejs/require.js",
         HERE / "widget_paths.js",
@@ -37,7 +32,6 @@ WIDGET_SCRIPTS = ["require.js", "widget_paths.js", "embed-amd.js"]  # in this or
 
 def configure(app, config):
     """Point Sphinx and MyST-NB to the copies."""
-    config.mathjax_path = "mathjax/tex-chtml.js"
     config.nb_ipywidgets_js = {f"widgets/{name}": {"defer": "defer"} for name in WIDGET_SCRIPTS}
 
 
@@ -49,10 +43,7 @@ def copy_files(app):
         for source in sources:
             if not source.exists():
                 raise ExtensionError(f"{source} is missing: run 'npm ci' in book/npm, or 'make'")
-            # MathJax looks for fonts and extensions at their places beside its main file.
-            tail = source.relative_to(NODE_MODULES / "mathjax/es5") if folder == "mathjax" else ""
-            target = Path(app.outdir, "_static", folder, tail or source.name)
-            copy(source, target)
+            copy(source, Path(app.outdir, "_static", folder, source.name))
 
 
 def copy(source, target):

@@ -8,21 +8,20 @@ A figure that a notebook shows with a computed caption and alt text becomes a nu
 and wherever it is quoted.
 """
 
-import base64
-import hashlib
 import json
-import os
 from pathlib import Path
 
+import nbformat
 from docutils import nodes
 from docutils.parsers.rst import directives
 from docutils.statemachine import StringList
+from pictures import picture  # beside this file
 from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 logger = logging.getLogger(__name__)
-PICTURES = {"image/svg+xml": (".svg", str.encode), "image/png": (".png", base64.b64decode)}
+SVG = "image/svg+xml"
 
 
 def notebooks_first(app, env, pages):
@@ -71,16 +70,14 @@ class ResultDirective(SphinxDirective):
     option_spec = {  # noqa: RUF012
         "alt": directives.unchanged_required,
         "name": directives.unchanged_required,
-        "width": directives.length_or_percentage_or_unitless,
     }
 
     def run(self):
         """Show the richest form the notebook gave."""
         output = find(self.env, self.arguments[0], self.get_location())
         data = output["data"]
-        for mime, (suffix, decode) in PICTURES.items():
-            if mime in data:
-                return [self.figure(decode(data[mime]), suffix, output["metadata"])]
+        if SVG in data:
+            return [self.figure(output)]
         if self.content:
             logger.warning(
                 "%s is no picture, yet has a caption",
@@ -99,16 +96,9 @@ class ResultDirective(SphinxDirective):
         self.state.nested_parse(lines, self.content_offset, node)
         return node.children
 
-    def figure(self, data, suffix, metadata):
+    def figure(self, output):
         """The image as a numbered figure."""
-        name = hashlib.sha256(data).hexdigest() + suffix
-        path = Path(self.env.mystnb_config.output_folder, name)
-        path.write_bytes(data)
-        uri = "/" + Path(os.path.relpath(path, self.env.srcdir)).as_posix()
-        image = nodes.image(uri=uri, alt=self.options.get("alt", metadata.get("alt", "")))
-        if "width" in self.options:
-            image["width"] = self.options["width"]
-        figure = nodes.figure("", image)
+        figure = nodes.figure("", drawn(output, self.options.get("alt")))
         self.set_source_info(figure)
         for paragraph in self.parse(self.caption())[:1]:
             figure += nodes.caption("", "", *paragraph.children)
@@ -121,6 +111,13 @@ class ResultDirective(SphinxDirective):
             return "\n".join(self.content)
         name = f"caption-{self.arguments[0]}"
         return find(self.env, name, self.get_location())["data"]["text/markdown"]
+
+
+def drawn(output, alt=None):
+    """The picture that an output of a notebook is, in both its layouts."""
+    metadata = output["metadata"]
+    alt = alt or metadata.get("alt", "")
+    return picture(wide=output["data"][SVG], narrow=metadata.get("narrow", ""), alt=alt)
 
 
 class ComputedFigures(SphinxTransform):
@@ -137,30 +134,27 @@ class ComputedFigures(SphinxTransform):
         executed = Path(self.env.mystnb_config.output_folder, self.env.docname + ".ipynb")
         if not executed.exists():
             return
-        cells = json.loads(executed.read_text())["cells"]
+        cells = nbformat.read(executed, as_version=4).cells
         for cell in list(self.document.findall(is_element("cell_code"))):
             outputs = [
-                output.get("metadata", {})
+                output
                 for output in cells[cell["cell_index"]]["outputs"]
                 if output["output_type"] in ("display_data", "execute_result")
             ]
             bundles = list(cell.findall(is_element("mime_bundle")))
-            for i, metadata in enumerate(outputs):
-                if "alt" in metadata:
-                    self.number(bundles[i], bundles[i + 1], metadata)
+            for i, output in enumerate(outputs):
+                if "alt" in output.get("metadata", {}):
+                    self.number(bundles[i], bundles[i + 1], output)
 
-    def number(self, picture, caption, metadata):
-        """Put a picture and its caption into a figure in the picture's place."""
-        figure = nodes.figure()
-        figure.source, figure.line = picture.source, picture.line
-        picture.replace_self(figure)
-        figure += picture
-        for image in picture.findall(nodes.image):
-            image["alt"] = metadata["alt"]
+    def number(self, shown, caption, output):
+        """Put a picture and its caption into a figure where the notebook shows the picture."""
+        figure = nodes.figure("", drawn(output))
+        figure.source, figure.line = shown.source, shown.line
+        shown.replace_self(figure)
         paragraph = next(caption.findall(nodes.paragraph))
         figure += nodes.caption(paragraph.rawsource, "", *paragraph.children)
         caption.parent.remove(caption)
-        figure["names"].append(nodes.fully_normalize_name(metadata["scrapbook"]["name"]))
+        figure["names"].append(nodes.fully_normalize_name(output["metadata"]["scrapbook"]["name"]))
         self.document.note_explicit_target(figure, figure)
 
 

@@ -32,6 +32,10 @@ OF_THE_CONTENT = {
     # A header cell without a header: the corner of a pandas table.
     r'<th(?: class="head")?>(?:<p></p>)?</th>': "<td></td>",
 }
+# Words that name a property of every JavaScript object are no words of the search index.
+OF_THE_SEARCH = {
+    r"\{ files: (\w+)\[word\], score": r"{ files: Object.hasOwn(\1, word) ? \1[word] : [], score",
+}
 # The icons, and a list of the source pages to which no page links.
 UNUSED_FILES = ["_static/scripts/fontawesome.js*", "_modules/index.html"]
 
@@ -53,7 +57,14 @@ def repair(app, exception):
     for pattern in UNUSED_FILES:
         for path in Path(app.outdir).glob(pattern):
             path.unlink()
-    for pattern in OF_THE_THEME.keys() - needed:
+    search = Path(app.outdir, "_static", "searchtools.js")
+    text = search.read_text(encoding="utf-8")
+    for pattern, replacement in OF_THE_SEARCH.items():
+        text, count = re.subn(pattern, replacement, text)
+        if count:
+            needed.add(pattern)
+    search.write_text(text, encoding="utf-8")
+    for pattern in (OF_THE_THEME | OF_THE_SEARCH).keys() - needed:
         logger.warning("no page needs this repair any more: %s", pattern)
 
 

@@ -15,7 +15,7 @@
 
   const reach = () => {
     // What scrolls sideways can be reached by keyboard.
-    for (const box of document.querySelectorAll("article mjx-container, article span.math")) {
+    for (const box of document.querySelectorAll("article .katex-display, .pst-scrollable-table-container")) {
       if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
     }
@@ -32,7 +32,7 @@
   addEventListener("resize", reach);
   addEventListener("load", () => {
     reach();
-    // MathJax and the widgets add to the text later. A widget at work changes nothing of this.
+    // The widgets add to the text later. A widget at work changes nothing of this.
     const added = new MutationObserver((changes) => {
       if (changes.some(({ target }) => !target.closest(".jupyter-widgets"))) reach();
     });
@@ -40,3 +40,10 @@
     if (article) added.observe(article, { childList: true, subtree: true });
   });
 })();
+
+// The theme's buttons, without inline handlers.
+addEventListener("click", (event) => {
+  const button = event.target.closest?.("[data-click]");
+  if (button?.dataset.click === "window.print()") print();
+  if (button?.dataset.click === "toggleFullScreen()") toggleFullScreen();
+});

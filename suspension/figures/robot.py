@@ -55,7 +55,7 @@ class RobotDrawing:
 
     def ground(self, left, right):
         """Draw the road from `left` to `right`, m, and fit the view to it in true proportions."""
-        x = np.linspace(left, right, 2001)
+        x = np.linspace(left, right, 501)
         H = profile(self.road, x)[0]
         self.ax.fill_between(x, H, H.min() - 0.03, color="0.88", lw=0)
         self.ax.plot(x, H, color="0.45", lw=1)

@@ -10,6 +10,8 @@ import inspect
 import matplotlib.pyplot as plt
 from IPython.display import Markdown, display
 
+from suspension.figures.layout import narrow, svg
+
 __all__ = ["answer", "listing", "say", "show_figure"]
 
 UNITS = {
@@ -52,7 +54,12 @@ def show_figure(name, caption, figure=None):
         The current figure if not given.
     """
     figure = plt.gcf() if figure is None else figure
-    display(figure, metadata=_named(name) | {"alt": caption.alt})
+    wide = {"image/svg+xml": svg(figure), "text/plain": caption.alt}
+    display(
+        wide,
+        raw=True,
+        metadata=_named(name) | {"alt": caption.alt, "narrow": svg(narrow(figure))},
+    )
     plt.close(figure)
     say(caption.text, name=f"caption-{name}")
 

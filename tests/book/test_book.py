@@ -6,24 +6,9 @@ from functools import cache
 from urllib.parse import unquote, urlsplit
 
 import pytest
-import yaml
 from bs4 import BeautifulSoup
-from helpers import ROOT
+from helpers import PAGES
 
-
-def files_of(entry):
-    """The page of a table-of-contents entry and all below it."""
-    if isinstance(entry, list):
-        return [page for item in entry for page in files_of(item)]
-    own = [entry[key] for key in ("root", "file") if key in entry]
-    below = [entry[key] for key in ("parts", "chapters", "sections", "entries") if key in entry]
-    return own + files_of(below)
-
-
-PAGES = [
-    re.sub(r"\.(md|ipynb)$", "", page)
-    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
-]
 each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
 
 
@@ -98,18 +83,37 @@ def test_no_script_style_image_or_font_is_on_another_host(book, page):
 
 @each_page
 def test_figures_have_alt_text_and_caption(book, page):
-    for image in parse(book / f"{page}.html").select("article img"):
-        alt = image.get("alt", "")
-        assert len(alt.split()) >= 3, f"alt text of {image['src']}: {alt!r}"
+    for image in parse(book / f"{page}.html").select("article img, article svg[role=img]"):
+        alt = image.get("alt") or image.get("aria-label", "")
+        assert len(alt.split()) >= 3, f"alt text of a figure on {page}: {alt!r}"
         assert not re.search(r"[0-9a-f]{16}|\.(png|svg|jpe?g)\b", alt), alt
-        if "suspension-explorer-still" in image.get("class", []):
-            continue  # stands in for the widget until the scripts run
+        if not image.find_parent("figure"):  # an explorer's still picture
+            assert "figure-svg" not in image.get("class", [])
+            continue
         caption = image.find_parent("figure").figcaption
-        assert len(caption.select_one(".caption-text").get_text().split()) >= 3, image["src"]
+        assert len(caption.select_one(".caption-text").get_text().split()) >= 3, alt
+
+
+@each_page
+def test_figures_follow_the_theme_and_the_width(book, page):
+    soup = parse(book / f"{page}.html")
+    figures = soup.select("article figure .figure-svg")
+    shapes = {shape["id"] for shape in soup.select(".shared-shapes [id]")}
+    for figure in figures:
+        assert int(figure["width"]) > 0 and int(figure["height"]) > 0
+        markup = str(figure)
+        assert "var(--figure-ink)" in markup or "var(--figure-paper)" in markup
+        assert not re.search(r"fill:\s*(#fff|#000|white|black)\b", markup)
+        assert set(re.findall(r'(?:href="|url\()#([\w.-]+)', markup)) <= shapes
+        assert not figure.select("[id]"), "two figures may have the same ids"
+    wide, narrow = (soup.select(f"figure .figure-svg.{name}") for name in ("if-wide", "if-narrow"))
+    assert len(wide) == len(narrow)
+    for figure in narrow:
+        assert int(figure["width"]) <= 400
 
 
 def test_the_landing_page_shows_a_figure(book):
-    assert parse(book / "book/index.html").select("article figure img")
+    assert parse(book / "book/index.html").select("article figure .figure-svg")
 
 
 @each_page
@@ -130,6 +134,15 @@ def test_every_notebook_page_was_executed(book):
             soup = parse(book / f"{page}.html")
             assert soup.select(".cell_output"), page
             assert not soup.select(".output.traceback"), page
+
+
+@each_page
+def test_formulas_are_set_and_need_no_script(book, page):
+    soup = parse(book / f"{page}.html")
+    for formula in soup.select("article .math"):
+        assert formula.select_one(".katex-html") and formula.select_one("math"), formula
+    scripts = " ".join(str(script) for script in soup.find_all("script")).lower()
+    assert "mathjax" not in scripts and "katex" not in scripts
 
 
 @pytest.fixture(params=["http", "file"])
@@ -163,8 +176,6 @@ def test_in_a_browser(visit, start, page):
     assert not complaints
     assert not [url for url in asked if not url.startswith((start, "data:", "blob:"))]
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth"), "scrolls sideways"
-    formulas = tab.locator("article .math").count()
-    assert tab.locator("article .math mjx-container").count() >= formulas
     views = tab.locator("article script[type$='widget-view+json']").count()
     assert tab.locator("article .jupyter-widgets-view, article .widget-subarea").count() >= views
 

@@ -24,8 +24,8 @@ ONLY_IN = {
     "pandas": {"springs"},
     "statsmodels": {"springs"},
 }
-# What a room may use of another; the explorer draws a still picture and writes its caption.
-NEIGHBOURS = {"figures": set(), "report": set(), "explorer": {"figures", "report"}}
+# What a room may use of another: the report shows figures, the explorer a still one and a caption.
+NEIGHBOURS = {"figures": set(), "report": {"figures"}, "explorer": {"figures", "report"}}
 
 
 def dotted(path):

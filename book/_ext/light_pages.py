@@ -1,0 +1,316 @@
+"""Sphinx extension: one style sheet and one script for all pages, without what no page uses.
+
+Theme and extensions put a dozen style sheets, a dozen scripts and some inline scripts into every
+page. After the build, what all pages load becomes ``_static/book.css`` and ``_static/book.js``. The
+style sheet keeps the rules whose classes occur on some page or in some script, the fonts keep the
+characters that the pages show and come with ``_static/first.js``, which runs before a page is
+drawn, so that nothing moves. No inline script is left: the pages work under the
+Content-Security-Policy that the README gives.
+"""
+
+import base64
+import hashlib
+import json
+import logging
+import re
+from html import unescape
+from io import BytesIO
+from pathlib import Path
+from posixpath import dirname, join, normpath
+
+import tinycss2
+from fontTools.subset import Options, Subsetter
+from fontTools.ttLib import TTFont
+
+logging.getLogger("fontTools").setLevel(logging.ERROR)  # it tells of timestamps
+
+STYLE = re.compile(r'\s*<link\b[^>]*\bhref="([^"?]+)[^"]*"[^>]*rel="stylesheet"[^>]*>|'
+                   r'\s*<link\b[^>]*rel="stylesheet"[^>]*\bhref="([^"?]+)[^"]*"[^>]*>')  # fmt: skip
+SCRIPT = re.compile(r"\s*<script\b([^>]*)>(.*?)</script>", re.DOTALL)
+SOURCE = re.compile(r'src="([^"?]+)[^"]*"')
+PRELOAD = re.compile(r'\s*<link rel="preload" as="script"[^>]*>')
+HANDLER = re.compile(r' onclick="([^"]*)"')
+# Sets the page's name for a service that this book does not use.
+PAGE_NAME = re.compile(r"DOCUMENTATION_OPTIONS\.pagename = .*;")
+NESTING = ("media", "supports", "layer", "container")  # rules that hold rules
+PRIVATE_USE = 0xE000  # code points from here on are icons
+SEARCH = ("searchtools.js", "language_data.js", "searchindex.js")  # only the search page searches
+
+
+def lighten(app, exception):
+    """Rewrite all pages, when everything else is done with them."""
+    if exception or app.builder.format != "html":
+        return
+    out = Path(app.outdir)
+    paths = [path for path in sorted(out.rglob("*.html")) if out / "_static" not in path.parents]
+    pages = {path: path.read_text(encoding="utf-8") for path in paths}
+    pages = {path: text for path, text in pages.items() if "<script" in text}  # not a redirection
+    scripts = {path: list(find_scripts(path, text, out)) for path, text in pages.items()}
+    common = on_all(scripts)
+    bundle = ";\n".join(read_script(item) for item in common)
+    bundle = re.sub(r"(?m)^//# sourceMappingURL=.*$", "", bundle)
+    (out / "_static" / "book.js").write_text(bundle, encoding="utf-8")
+
+    styles = {path: find_styles(path, text, out) for path, text in pages.items()}
+    shared = on_all(styles)
+    words = used_words(pages.values(), [bundle, *other_scripts(out)])
+    characters = {letter for text in pages.values() for letter in in_formulas(text)}
+    sheet = "\n".join(rebased(path, out) for path in shared)
+    sheet, fonts = pruned(sheet, words, characters, out)
+    first = (Path(__file__).parent.parent / "style" / "first.js").read_text(encoding="utf-8")
+    files = {
+        "book.css": sheet,
+        "fonts.css": "".join(font_face(*font) for font in fonts),
+        "first.js": first.replace("FONTS", json.dumps(fonts, indent=0)),
+    }
+    for name, content in files.items():
+        (out / "_static" / name).write_text(content, encoding="utf-8")
+
+    for path, text in pages.items():
+        path.write_text(rewritten(path, text, out, set(common), set(shared)), encoding="utf-8")
+    for path in {*shared, *(item for item in common if isinstance(item, Path))}:
+        path.unlink()
+    remove_unused(out)
+
+
+def on_all(found):
+    """What all pages have, in order, once."""
+    first, *others = found.values()
+    return [item for item in dict.fromkeys(first) if all(item in other for other in others)]
+
+
+def find_styles(path, text, out):
+    """The style sheets of a page, in order."""
+    return [local(path, first or second, out) for first, second in STYLE.findall(text)]
+
+
+def local(path, address, out):
+    """The file that an address on a page means."""
+    return out / normpath(join(dirname(path.relative_to(out).as_posix()), address))
+
+
+def find_scripts(path, text, out):
+    """The classic scripts of a page, in order: files as paths, inline ones as text."""
+    for attributes, body in SCRIPT.findall(text):
+        if "type=" in attributes or "data-cfasync" in attributes:
+            continue
+        source = SOURCE.search(attributes)
+        body = PAGE_NAME.sub("", body).strip()
+        if source and Path(source[1]).name not in SEARCH:
+            yield local(path, source[1], out)
+        elif not source and body:
+            yield body
+
+
+def read_script(item):
+    """The code of a script."""
+    return item.read_text(encoding="utf-8") if isinstance(item, Path) else item
+
+
+def other_scripts(out):
+    """The code of the scripts that some pages load; widgets bring styles of their own."""
+    paths = sorted((out / "_static").rglob("*.js"))
+    return [path.read_text(encoding="utf-8") for path in paths if path.parent.name != "widgets"]
+
+
+def rewritten(path, text, out, common, shared):
+    """A page with one style sheet and one script in place of those that all pages have."""
+    is_search = path.name == "search.html"
+    up = "../" * (len(path.relative_to(out).parts) - 1)
+
+    def style(found):
+        return "" if local(path, found[1] or found[2], out) in shared else found[0]
+
+    def script(found):
+        attributes, body = found.groups()
+        if "type=" in attributes:
+            return found[0]
+        source = SOURCE.search(attributes)
+        if source:
+            name = Path(source[1]).name
+            if local(path, source[1], out) in common or (name in SEARCH and not is_search):
+                return ""
+            defer = "" if "defer" in attributes else " defer"
+            return found[0].replace("<script", f"<script{defer}")
+        body = PAGE_NAME.sub("", body).strip()
+        if not body or body in common or "data-cfasync" in attributes:
+            return ""
+        name = f"inline-{hashlib.sha256(body.encode()).hexdigest()[:12]}.js"
+        (out / "_static" / name).write_text(body + "\n", encoding="utf-8")
+        return f'\n<script defer src="{up}_static/{name}"></script>'
+
+    text = PRELOAD.sub("", STYLE.sub(style, SCRIPT.sub(script, text)))
+    text = HANDLER.sub(r' data-click="\1"', text)
+    head = "".join(
+        [
+            f'\n<script src="{up}_static/first.js{version(out, "first.js")}"></script>',
+            f'\n<noscript><link rel="stylesheet" href="{up}_static/fonts.css" /></noscript>',
+            f'\n<link rel="stylesheet" href="{up}_static/book.css{version(out, "book.css")}" />',
+            f'\n<script defer src="{up}_static/book.js{version(out, "book.js")}"></script>',
+        ]
+    )
+    # After what sets the character set and the title, before page-specific files.
+    return re.sub(r"(?=\s*<noscript>|\s*</head>)", lambda _: head, text, count=1)
+
+
+def version(out, name):
+    """A tail for an address, so that no browser shows the file of an older book."""
+    return f"?v={hashlib.sha256((out / '_static' / name).read_bytes()).hexdigest()[:8]}"
+
+
+def rebased(path, out):
+    """A style sheet, with addresses as seen from ``_static``."""
+    folder = dirname(path.relative_to(out / "_static").as_posix())
+
+    def address(found):
+        if found[1].startswith(("data:", "#", "http")):
+            return found[0]
+        return f"url({normpath(join(folder, found[1]))})"
+
+    text = re.sub(r"url\((?!['\"])([^)]+)\)", address, path.read_text(encoding="utf-8"))
+    other = r"""@import\s+(?:url\()?['"]([^'"]+)['"]\)?;"""
+    return re.sub(other, lambda found: rebased(path.parent / found[1], out), text)
+
+
+def used_words(pages, scripts):
+    """All classes and ids of the pages, and every word of a script, which may add it as a class."""
+    named = (names for page in pages for names in re.findall(r'\b(?:class|id)="([^"]*)"', page))
+    words = {name for names in named for name in names.split()}
+    return words | {word for script in scripts for word in re.findall(r"[\w-]+", script)}
+
+
+def in_formulas(page):
+    """The characters that KaTeX's fonts have to show on a page."""
+    for start in re.finditer(r'<span class="katex-html"', page):
+        depth = 0
+        for tag in re.compile(r"<(/?)span\b").finditer(page, start.start()):
+            depth += -1 if tag[1] else 1
+            if depth == 0:
+                yield from unescape(re.sub(r"<[^>]*>", "", page[start.start() : tag.start()]))
+                break
+
+
+def pruned(sheet, words, characters, out):
+    """A style sheet without the rules for classes that nothing has, and the fonts it asks for."""
+    rules = list(kept(tinycss2.parse_stylesheet(sheet, True, True), words))
+    text = "\n".join(rule for rule in rules if not rule.startswith("@font-face"))
+    fonts = [
+        cut_down(rule, text, characters | set(text), out)
+        for rule in rules
+        if rule.startswith("@font-face")
+    ]
+    return text + "\n", [font for font in fonts if font]
+
+
+def kept(rules, words):
+    """The rules of a sheet, as text, as far as they may apply."""
+    for rule in rules:
+        if rule.type == "qualified-rule":
+            selectors = [part for part in split(rule.prelude) if may_apply(part, words)]
+            if selectors:
+                start = ",".join(tinycss2.serialize(part).strip() for part in selectors)
+                yield f"{start}{{{compact(rule.content)}}}"
+        elif rule.type == "at-rule":
+            name = f"@{rule.at_keyword}{tinycss2.serialize(rule.prelude).rstrip()}"
+            if rule.content and rule.lower_at_keyword in NESTING:
+                inner = list(kept(tinycss2.parse_rule_list(rule.content, True, True), words))
+                if inner:
+                    yield f"{name}{{{''.join(inner)}}}"
+            elif rule.lower_at_keyword != "charset":
+                yield f"{name}{{{compact(rule.content)}}}" if rule.content else f"{name};"
+
+
+def compact(content):
+    """Declarations in a line, without comments."""
+    return tinycss2.serialize([token for token in content if token.type != "comment"]).strip()
+
+
+def split(prelude):
+    """The selectors of a list."""
+    part = []
+    for token in prelude:
+        if token.type == "literal" and token.value == ",":
+            yield part
+            part = []
+        elif token.type != "comment":
+            part.append(token)
+    yield part
+
+
+def may_apply(selector, words):
+    """Whether all classes and ids that a selector asks for occur; not those within ``:not()``."""
+    for before, token in zip([None, *selector], selector):
+        is_class = token.type == "ident" and before is not None and before == "."
+        if (is_class or token.type == "hash") and token.value not in words:
+            return False
+    return True
+
+
+def cut_down(rule, text, characters, out):
+    """Name, file and style of a font with no more than some characters; None if it has no use."""
+    found = dict(re.findall(r"(font-[a-z]+):\s*([^;}]+)", rule))
+    family = found["font-family"].replace("\\", "").strip("'\" ")
+    escaped = re.escape(family).replace("\\ ", r"\\? ")
+    address = re.search(r"url\(['\"]?([^)'\"]+\.ttf)", rule)
+    if not address or not re.search(escaped, text) or unused_face(rule, text):
+        return None
+    font = TTFont(out / "_static" / address[1], recalcTimestamp=False)
+    wanted = {ord(character) for character in characters} & set(font.getBestCmap())
+    if "Awesome" in family:  # only icons, which stand in the style sheet
+        wanted = {code for code in wanted if code >= PRIVATE_USE}
+    if not wanted:
+        return None
+    subsetter = Subsetter(Options(layout_features=[], hinting=False, notdef_outline=True))
+    subsetter.populate(unicodes=wanted)
+    subsetter.subset(font)
+    font.flavor = "woff"
+    file = BytesIO()
+    font.save(file)
+    style = {"weight": found.get("font-weight", "400"), "style": found.get("font-style", "normal")}
+    return family, base64.b64encode(file.getvalue()).decode(), style
+
+
+def font_face(family, data, style):
+    """The rule for a font, for readers without scripts."""
+    source = f"url(data:font/woff;base64,{data})"
+    return (
+        f'@font-face{{font-family:"{family}";font-weight:{style["weight"]};'
+        f"font-style:{style['style']};src:{source}}}\n"
+    )
+
+
+def unused_face(rule, text):
+    """Whether no rule asks KaTeX for the bold, or for the italic face of its upright font."""
+    about = "".join(re.findall(r"[^{}]*katex[^{}]*\{[^{}]*\}", text.replace(" ", "")))
+    bold, italic = "font-weight:700" in rule, "font-style:italic" in rule
+    if "KaTeX" not in rule:
+        return False
+    if bold and not re.search(r"font-weight:(700|bold)", about):
+        return True
+    return italic and "KaTeX_Main" in rule and "font-style:italic;font-weight" not in about
+
+
+def remove_unused(out):
+    """Remove fonts that stand in the style sheet and what only the theme's own pages would load."""
+    text = "".join(path.read_text(encoding="utf-8") for path in out.rglob("*.html"))
+    text += (out / "_static" / "book.css").read_text(encoding="utf-8")
+    for pattern in ("katex/**/*", "vendor/**/*", "styles/*", "scripts/*", "*.html", "locales/**/*",
+                    "images/*", "*.png", "basic.css"):  # fmt: skip
+        for path in sorted((out / "_static").glob(pattern), reverse=True):
+            if path.is_file() and path.name not in text:
+                path.unlink()
+    for folder in sorted((out / "_static").rglob("*/"), reverse=True):
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def all_pages(app, env, added, changed, removed):
+    """Write every page in every build: what all of them load is only known together."""
+    return list(env.found_docs)
+
+
+def setup(app):
+    """Connect to Sphinx, after the repairs of the theme."""
+    app.connect("env-get-outdated", all_pages)
+    app.connect("build-finished", lighten, priority=900)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
