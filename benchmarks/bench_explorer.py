@@ -22,7 +22,7 @@ from lab import run_all, serve  # noqa: E402
 MOVES = 40  # of each control
 OPENINGS = 7
 SLOWER = 6
-MARK = 'class="suspension-explorer-box'  # stands in every page with an explorer
+MARK = '<div class="suspension-explorer-box'  # stands in every page with an explorer
 
 # The first "painted" event is the moment the page can be used; it comes with the drawn frame.
 WATCH = """

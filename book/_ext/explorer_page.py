@@ -61,13 +61,14 @@ class ExplorerDirective(SphinxDirective):
         html = found.get("text/html", self.arguments[0])
         content = nodes.Element()
         self.state.nested_parse(self.content, self.content_offset, content)
-        images = list(content.findall(nodes.image))
-        if not images:
-            return [nodes.raw("", html, format="html")]
-        images[0]["classes"].append("se-instead")
         live = nodes.raw("", STILL.sub("", html), format="html")
-        images[0].parent.insert(images[0].parent.index(images[0]), live)
-        return content.children
+        for figure in content.findall(nodes.figure):
+            drawn = figure.children[0]
+            drawn.replace_self(
+                [live, nodes.container("", drawn.deepcopy(), classes=["se-instead"])]
+            )
+            return content.children
+        return [nodes.raw("", html, format="html"), *content.children]
 
 
 class ExplorerLinks(SphinxPostTransform):

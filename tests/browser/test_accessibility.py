@@ -6,9 +6,9 @@ from helpers import ROOT
 
 AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 TOC = yaml.safe_load((ROOT / "_toc.yml").read_text())
-ALL_WIDGETS_SPEAK = """
-[...document.querySelectorAll(".se-words")].filter(words => words.innerText).length
-    >= document.querySelectorAll("article script[type$='widget-view+json']").length
+ALL_EXPLORERS_SPEAK = """
+[...document.querySelectorAll(".suspension-explorer-box")]
+    .every(box => box.querySelector(".se-headline")?.innerText)
 """
 PAGES = [TOC["root"], *(page["file"] for part in TOC["parts"] for page in part["chapters"])]
 
@@ -20,7 +20,7 @@ def test_axe_finds_no_violation(browser, site, page, theme):
     tab = context.new_page()
     tab.goto(f"{site}{page}.html")
     tab.wait_for_load_state("networkidle")
-    tab.wait_for_function(ALL_WIDGETS_SPEAK)
+    tab.wait_for_function(ALL_EXPLORERS_SPEAK)
     tab.add_script_tag(path=AXE)
     result = tab.evaluate("axe.run(document, {resultTypes: ['violations']})")
     context.close()

@@ -26,7 +26,7 @@ VIEW = f"{BOX} .suspension-explorer"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Damping c (N s/m)"]
 BUMP_SLIDERS = ["Bump height (mm)", "Bump width σ (mm)"]
 PLAIN = {0x2212: "-", 0xD7: "x", 0xA0: " "}  # the page's minus, times and fixed space
-MARK = 'class="suspension-explorer-box'  # stands in every page with an explorer
+MARK = '<div class="suspension-explorer-box'  # stands in every page with an explorer
 BUMPS = """
 def two_bumps(x):
     (H1, d1), (H2, d2) = GaussianBump()(x), GaussianBump(0.018, 0.02, 0.85)(x)
