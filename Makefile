@@ -1,4 +1,4 @@
-# make book | quick | test | mutants | lab | notebooks | bench | requirements | clean
+# make book | pdf | quick | test | mutants | lab | notebooks | bench | requirements | clean
 # Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
@@ -11,7 +11,7 @@ BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
 
-.PHONY: book readings lint quick test mutants lab notebooks bench requirements clean
+.PHONY: book pdf readings lint quick test mutants lab notebooks bench requirements clean
 
 book: $(VENV) readings $(NPM)
 	$(BUILD)
@@ -37,8 +37,13 @@ test: book lint
 mutants: $(VENV)
 	$(BIN)/python tests/mutants.py $(if $(SAMPLE),--sample $(SAMPLE)) $(MODULES)
 
+# The root is this folder, so that links between notebooks and pages work.
 lab: $(VENV)
-	$(BIN)/jupyter lab --notebook-dir=notebooks
+	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root)
+
+# The answer sheet and the whole book, as _build/pdf/*.pdf; needs Chromium.
+pdf: book
+	$(BIN)/python book/paper.py
 
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
