@@ -29,7 +29,7 @@ body { background: #fff; color: #000; }
 main { max-width: none; padding: 0; }
 article.page { break-before: page; }
 article.page:first-of-type { break-before: auto; }
-.sheets a { display: flex; color: inherit; text-decoration: none; }
+.sheets a { display: flex; line-height: 1.35; color: inherit; text-decoration: none; }
 .sheets a.inner { padding-left: 1.5em; }
 .sheets a .dots { flex: 1; border-bottom: 1px dotted #888; margin: 0 0.4em 0.3em; }
 .sheets { break-after: page; }
