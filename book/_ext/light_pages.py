@@ -108,9 +108,8 @@ def read_script(item):
 
 
 def other_scripts(out):
-    """The code of the scripts that some pages load; widgets bring styles of their own."""
-    paths = sorted((out / "_static").rglob("*.js"))
-    return [path.read_text(encoding="utf-8") for path in paths if path.parent.name != "widgets"]
+    """The code of the scripts that some pages load."""
+    return [path.read_text(encoding="utf-8") for path in sorted((out / "_static").rglob("*.js"))]
 
 
 def rewritten(path, text, out, common, shared):

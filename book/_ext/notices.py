@@ -18,9 +18,8 @@ PACKAGES = (
     "sphinx-copybutton",
     "sphinx-design",
     "sphinx-togglebutton",
-    "anywidget",
 )
-BROWSER_PACKAGES = ("katex", "@jupyter-widgets/html-manager", "requirejs")
+BROWSER_PACKAGES = ("katex",)
 # The letters in figures are outlines of theirs.
 FONTS = Path(matplotlib.get_data_path(), "fonts", "ttf")
 ICONS = """Font Awesome Free by @fontawesome, https://fontawesome.com, as in pydata-sphinx-theme.
