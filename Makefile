@@ -7,7 +7,7 @@ BIN := .venv/bin
 VENV := .venv/.installed
 PEERS := .venv/bench/.installed
 # A fresh folder, or files of older builds would pile up; fixed seeds and dates, or two would differ.
-BUILD := rm -rf _build/html && PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=0 \
+BUILD := rm -rf _build/html && PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4

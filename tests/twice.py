@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 from helpers import ROOT
 
-FIXED = {"PYTHONHASHSEED": "0", "SOURCE_DATE_EPOCH": "0"}
+FIXED = {"PYTHONHASHSEED": "0", "SOURCE_DATE_EPOCH": "1795478400"}
 
 
 def build(folder):
