@@ -280,7 +280,8 @@ def explore(
     chosen = getattr(scheme, "name", scheme)
     settings = {"v": v, "dt": dt, "k": k, "c": c, "height": height, "sigma": sigma}
     for name, value in settings.items():
-        settings[name] = _in_range(name, family.own[name] if value is None else value, family)
+        own = family.own.get(name, value)  # a speed and a step there must be
+        settings[name] = _in_range(name, own if value is None else value, family)
     if not family.has_bump and not (height is None and sigma is None):
         raise ValueError("height and sigma must be left out, for the road is no GaussianBump")
     if time is not None:

@@ -448,7 +448,7 @@ TABLE = [
         {
             "road": NO_ROADS,
             "v": [*NOT_POSITIVE, 0.01, 100],
-            "dt": [*NOT_POSITIVE, 0.003],
+            "dt": [*NOT_POSITIVE, 0.3],
             "k": but(NOT_POSITIVE, None),
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
             "view": [*NOT_A_NUMBER, "Forces", "all", ["robot"]],
