@@ -1,6 +1,5 @@
 """The built book: its pages, links, figures and widgets, and what a browser makes of them."""
 
-import json
 import re
 from functools import cache
 from urllib.parse import unquote, urlsplit

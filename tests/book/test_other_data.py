@@ -94,3 +94,9 @@ def test_no_page_shows(pages, what):
 def test_no_page_calls_the_data_synthetic(pages):
     claims = re.compile(r"these data are synthetic|data are \*{0,2}synthetic", re.IGNORECASE)
     assert not [page for page, text in pages.items() if claims.search(text)]
+
+
+def test_a_curved_spring_is_not_called_linear(pages, request):
+    curved = request.node.callspec.params["pages"] is curved_spring
+    text = pages["notebooks/01-regression.html"]
+    assert ("is not justified" in text or "is justified" not in text) == curved
