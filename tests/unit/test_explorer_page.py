@@ -15,6 +15,8 @@ from suspension.robot import Robot
 from suspension.schemes import Scheme
 from suspension.simulation import simulate, steps
 
+pytestmark = pytest.mark.slow  # Node runs, one for each setting
+
 BUMP = GaussianBump()
 ROBOT = Robot(793.2, 793.2)
 LOPSIDED = Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)
