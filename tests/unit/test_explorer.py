@@ -184,6 +184,7 @@ def test_trajectory_is_simulate_at_the_settings():
     assert box.explorer.schemes == (*SCHEMES, HEUN)
 
 
+@pytest.mark.slow
 def test_it_starts_where_contact_is_lost_or_nearly():
     lost = explore(ROBOT, BUMP, v=1.2).explorer
     assert lost.time * 1.25 / 1.2 == pytest.approx(lost.trajectory().loss.t, abs=1e-3)
@@ -204,6 +205,7 @@ def test_sliders_show_the_settings():
     assert all(control.description for control in box.children[0].children)
 
 
+@pytest.mark.slow
 def test_a_road_that_is_no_bump_has_no_sliders_for_one():
     box = explore(ROBOT, two_bumps)
     assert len(box.children[0].children) == 5
@@ -212,6 +214,7 @@ def test_a_road_that_is_no_bump_has_no_sliders_for_one():
         explore(ROBOT, two_bumps, height=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("road", [BUMP, FlatRoad()])
 @pytest.mark.parametrize("scheme", [EULER, HEUN], ids=lambda scheme: scheme.name)
 def test_the_lines_of_python_reproduce_the_run(road, scheme):
@@ -276,6 +279,7 @@ def state_of(html):
     return json.loads(re.search(r'class="se-state">(.*?)</script>', html, re.DOTALL)[1])
 
 
+@pytest.mark.slow
 def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     box = explore(ROBOT, BUMP, v=1.2)
     html = box._repr_mimebundle_()["text/html"]
@@ -293,6 +297,7 @@ def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     assert len(gzip.compress(html.encode())) < 110_000
 
 
+@pytest.mark.slow
 def test_the_still_picture_keeps_its_letters_and_rounds_its_lines():
     picture = unquote(explore(ROBOT, BUMP).html())
     letters = "".join(re.findall(r"<defs>.*?</defs>", picture, re.DOTALL))
@@ -303,6 +308,7 @@ def test_the_still_picture_keeps_its_letters_and_rounds_its_lines():
     assert not re.search(r"\.\d{3}", "".join(found))
 
 
+@pytest.mark.slow
 def test_a_compact_one_has_one_slider():
     html = explore(ROBOT, BUMP, compact=True).html()
     assert re.findall(r'data-trait="(\w+)"', html) == ["v"]
