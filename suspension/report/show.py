@@ -86,11 +86,11 @@ def listing(imports, parameters, *functions):
     imports : str
         Its first lines.
     parameters : dict
-        Numbers that the functions use by name.
+        Numbers that the functions use by name. Twelve digits of each: machines differ in the last.
     *functions : callable
         Their code follows, without docstrings; the last one is called, without arguments.
     """
-    numbers = [f"{name} = {value!r}" + _unit(name) for name, value in parameters.items()]
+    numbers = [f"{name} = {value:.12g}" + _unit(name) for name, value in parameters.items()]
     code = [_source(function) for function in functions]
     call = f"{functions[-1].__name__}()"
     parts = [imports.strip() + "\n\n" + "\n".join(numbers), *code, call]

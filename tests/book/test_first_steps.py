@@ -14,11 +14,10 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 WINDOWS = re.search(r"```bat\n(.*?)```", README, re.DOTALL)[1].splitlines()
 
 
-def run(command, folder, **environment):
-    """Exit code and output of a command."""
-    done = subprocess.run(
-        command, cwd=folder, env=os.environ | environment, capture_output=True, text=True
-    )
+def run(command, folder):
+    """Exit code and output of a command, as if no other `make` had called it."""
+    own = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
+    done = subprocess.run(command, cwd=folder, env=own, capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
 
 
