@@ -12,7 +12,8 @@ from tempfile import TemporaryDirectory
 
 from bs4 import BeautifulSoup
 from playwright.sync_api import sync_playwright
-from pypdf import PdfReader
+from pypdf import PdfReader, PdfWriter
+from pypdf.generic import NameObject, TextStringObject
 
 ROOT = Path(__file__).resolve().parents[1]
 HTML = ROOT / "_build" / "html"
@@ -33,6 +34,7 @@ article.page:first-of-type { break-before: auto; }
 .sheets a.inner { padding-left: 1.5em; }
 .sheets a .dots { flex: 1; border-bottom: 1px dotted #888; margin: 0 0.4em 0.3em; }
 .sheets { break-after: page; }
+.book-title { font-size: 1.8em; font-weight: bold; margin: 0 0 1em; }
 """
 
 
@@ -105,7 +107,8 @@ def joined(title, articles, numbers):
                 f'<a class="{kind}" href="#{at}"><span>{heading.get_text()}</span>'
                 f'<span class="dots"></span><span>{numbers.get(at, "")}</span></a>'
             )
-    contents = f'<nav class="sheets"><h1>{title}</h1><h2>Contents</h2>{"".join(lines)}</nav>'
+    head = f'<p class="book-title">{title}</p><h1>Contents</h1>'
+    contents = f'<nav class="sheets">{head}{"".join(lines)}</nav>'
     static = (HTML / "_static").as_uri()
     return f"""<!doctype html><html lang="en" data-theme="light"><head><meta charset="utf-8">
 <title>{title}</title><link rel="stylesheet" href="{static}/book.css">
@@ -121,6 +124,22 @@ def starts(path):
         name.removeprefix("/"): reader.get_destination_page_number(place) + 1
         for name, place in reader.named_destinations.items()
     }
+
+
+def mend_bookmarks(path):
+    """Write each title once: Chromium repeats that of a heading moved to the next sheet."""
+    writer = PdfWriter(clone_from=path)
+    for bookmark in flat(writer.outline):
+        half = len(bookmark.title) // 2
+        if bookmark.title[:half] == bookmark.title[half:]:
+            bookmark.node[NameObject("/Title")] = TextStringObject(bookmark.title[:half])
+    writer.write(path)
+
+
+def flat(outline):
+    """All bookmarks, whatever their level."""
+    for entry in outline:
+        yield from flat(entry) if isinstance(entry, list) else [entry]
 
 
 def print_pages(browser, names, path):
@@ -148,6 +167,7 @@ def print_pages(browser, names, path):
             )
             tab.close()
             numbers = starts(path)
+    mend_bookmarks(path)
     return len(PdfReader(path).pages)
 
 

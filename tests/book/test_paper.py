@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from bs4 import BeautifulSoup
 from helpers import PAGES, ROOT
 from pypdf import PdfReader
 
@@ -25,8 +26,21 @@ def printed(book, chromium):
     return {name: PdfReader(folder / f"{name}.pdf") for name in ("answers", "book")}
 
 
-def text_of(reader):
-    return " ".join(page.extract_text() for page in reader.pages)
+@pytest.fixture(scope="module")
+def texts(printed):
+    """The text of every sheet of both, and how far from the left its pieces begin, in points."""
+    return {name: [read(page) for page in reader.pages] for name, reader in printed.items()}
+
+
+def read(page):
+    """The text of a sheet, and the places at which pieces of it begin."""
+    places = []
+
+    def note(text, matrix, text_matrix, font, size):
+        if text.strip():
+            places.append(matrix[0] * text_matrix[4] + matrix[4])
+
+    return page.extract_text(visitor_text=note), places
 
 
 def titles(outline):
@@ -34,50 +48,45 @@ def titles(outline):
             (titles(entry) if isinstance(entry, list) else [entry.title])]  # fmt: skip
 
 
-def test_every_item_is_answered_in_order(printed):
-    text = re.sub(r"\s+", "", text_of(printed["answers"]))
+def test_every_item_is_answered_in_order(texts):
+    text = re.sub(r"\s+", "", " ".join(text for text, _ in texts["answers"]))
     places = [text.find(f"Answer{item}.") for item in ITEMS.split()]
     assert -1 not in places
     assert places == sorted(places)
 
 
 @pytest.mark.parametrize("name", ["answers", "book"])
-def test_nothing_is_cut(printed, name):
-    for page in printed[name].pages:
+def test_nothing_is_cut(printed, texts, name):
+    for page, (_, places) in zip(printed[name].pages, texts[name]):
         assert [float(side) for side in page.mediabox[2:]] == pytest.approx(A4, abs=2)
-        places = []
-
-        def note(text, matrix, text_matrix, font, size, places=places):
-            if text.strip():
-                places.append(matrix[0] * text_matrix[4] + matrix[4])
-
-        page.extract_text(visitor_text=note)
         assert not places or max(places) < A4[0] - 20, "text begins beyond the right margin"
 
 
 @pytest.mark.parametrize("name", ["answers", "book"])
-def test_no_sheet_is_empty(printed, name):
+def test_no_sheet_is_empty(printed, texts, name):
     empty = [
         number
-        for number, page in enumerate(printed[name].pages, 1)
-        if len(page.extract_text().split()) < 5 and len(page.get_contents().get_data()) < 3000
+        for number, (page, (text, _)) in enumerate(zip(printed[name].pages, texts[name]), 1)
+        if len(text.split()) < 5 and len(page.get_contents().get_data()) < 3000
     ]
     assert not empty
 
 
-def test_the_book_has_bookmarks_and_a_list_of_contents_with_sheets(printed):
-    reader = printed["book"]
-    bookmarks = titles(reader.outline)
-    assert sum(title == "The model" for title in bookmarks) == 1
+def test_the_book_has_bookmarks_and_a_list_of_contents_with_sheets(printed, texts):
+    parts = [entry.title for entry in printed["book"].outline if not isinstance(entry, list)]
+    assert parts[0] == "Contents" and parts.count("The model") == 1
+    assert len(parts) == 1 + len(PAGES)
+    bookmarks = titles(printed["book"].outline)
     assert len(bookmarks) > 3 * len(PAGES)
-    contents = " ".join(page.extract_text() for page in reader.pages[:4])
-    sheet = re.search(r"The model\s*(\d+)", contents)
-    assert sheet and "A half-robot" in reader.pages[int(sheet[1]) - 1].extract_text()
+    assert not [title for title in bookmarks if title[: len(title) // 2] * 2 == title]
+    sheets = [text for text, _ in texts["book"]]
+    sheet = re.search(r"The model\s*(\d+)", " ".join(sheets[:4]))
+    assert sheet and "A half-robot" in sheets[int(sheet[1]) - 1]
 
 
 def figures(reader):
-    """How many figures a PDF is tagged with."""
-    found, todo, seen = 0, [reader.trailer["/Root"].raw_get("/StructTreeRoot")], set()
+    """The alternative texts of the figures that a PDF is tagged with."""
+    found, todo, seen = [], [reader.trailer["/Root"].raw_get("/StructTreeRoot")], set()
     while todo:
         item = todo.pop()
         if hasattr(item, "idnum"):
@@ -90,11 +99,14 @@ def figures(reader):
                 item.raw_get(i) if hasattr(item, "raw_get") else item[i] for i in range(len(item))
             ]
         elif isinstance(item, dict):
-            found += item.get("/S") == "/Figure"
+            if item.get("/S") == "/Figure" and "/Alt" in item:
+                found.append(item["/Alt"])
             todo += [item.raw_get("/K")] if "/K" in item else []
     return found
 
 
-def test_the_answer_sheet_prints_every_figure_of_the_page(printed, book):
-    html = (book / "book/answers.html").read_text(encoding="utf-8")
-    assert figures(printed["answers"]) == len(re.findall(r'class="figure-svg (?:if-)?wide', html))
+def test_the_answer_sheet_prints_the_five_figures_of_the_page(printed, book):
+    page = BeautifulSoup((book / "book/answers.html").read_text(encoding="utf-8"), "html.parser")
+    shown = [image["aria-label"] for image in page.select("svg.if-wide, svg.wide")]
+    assert len(shown) == 5
+    assert sorted(figures(printed["answers"])) == sorted(shown)
