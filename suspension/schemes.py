@@ -209,9 +209,8 @@ class Scheme:
         P, Q = self.polynomials
         z, at, before = [], 0j, 0.0
         for phi in phases:
-            pieces = 1 + int(
-                (phi - before) / FINE
-            )  # so short that no other root is mistaken for it
+            # So short that no other root is mistaken for the next one.
+            pieces = 1 + int((phi - before) / FINE)
             for angle in np.linspace(before, phi, pieces + 1)[1:]:
                 slope = 1j * P(at) * Q(at) / (P.deriv()(at) * Q(at) - P(at) * Q.deriv()(at))
                 roots = (P - np.exp(1j * angle) * Q).roots()

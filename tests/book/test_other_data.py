@@ -1,4 +1,7 @@
-"""The whole book, built with other spring data: no page breaks, and none says what is not so."""
+"""The whole book, built with other spring data: every number, verdict and sentence follows.
+
+The words for other springs still are tested one by one in `tests/unit/test_report_*.py`.
+"""
 
 import os
 import re
@@ -6,12 +9,16 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 import scipy.io
 from bs4 import BeautifulSoup
 from helpers import ROOT
+
+from suspension import RK4, GaussianBump, Robot, margin
+from suspension.springs import fit_spring, load_spring_data
 
 PARTS = ("suspension", "notebooks", "data", "book", "benchmarks", "_config.yml", "_toc.yml")
 NOT_ABOUT_THE_SPRING = ("reference", "references", "speed")
@@ -26,6 +33,23 @@ NEVER = {
 }
 
 
+ASKED = (0.25, 1.2, 5, 10)  # m/s
+STEPS = (0.2, 0.1, 0.001)  # s
+
+
+class Book(NamedTuple):
+    """The readable text of every page, by its name, and what the pages are about."""
+
+    pages: dict
+    data: Path
+    robot: Robot
+
+    def answer(self, part, item):
+        """What a notebook's page says from an answer to the next one."""
+        text = " ".join(self.pages[f"notebooks/{part}.html"].split())
+        return text.split(f"Answer {item}.")[1].split("Answer")[0]
+
+
 def soft_spring(path):
     """250 N/m, as a spreadsheet writes it: nothing flies, and RK4 is stable at 0.1 s."""
     x = np.linspace(0, 1, 15)
@@ -33,25 +57,28 @@ def soft_spring(path):
     lines = [f"{a:.4f};{b:.3f}".replace(".", ",") for a, b in zip(x, force)]
     path = path / "spring_data.csv"
     path.write_text("\n".join(["delta_over_delta_max;force", *lines, ""]))
+    return path
 
 
 def curved_spring(path):
     """A preload and a curvature that no test for linearity can miss, in the course's format."""
     x = np.linspace(0, 1, 22)
     force = 1.5 + 11 * x + 4 * x**2 + np.random.default_rng(6).normal(0, 0.05, x.size)
-    scipy.io.savemat(path / "spring_data.mat", {"delta_over_delta_max": x, "force": force})
+    path = path / "spring_data.mat"
+    scipy.io.savemat(path, {"delta_over_delta_max": x, "force": force})
+    return path
 
 
 @pytest.fixture(scope="module", params=[soft_spring, curved_spring], ids=lambda make: make.__name__)
-def pages(request, tmp_path_factory):
-    """The readable text of every page of a book that was built with such data, by its name."""
+def book(request, tmp_path_factory):
+    """A book that was built with such data."""
     tree = tmp_path_factory.mktemp(request.param.__name__)
     for part in PARTS:
         if (ROOT / part).is_dir():
             shutil.copytree(ROOT / part, tree / part, ignore=shutil.ignore_patterns("*.mat"))
         else:
             shutil.copy(ROOT / part, tree)
-    request.param(tree / "data")
+    data = request.param(tree / "data")
     build = [Path(sys.executable).with_name("jupyter-book"), "build", ".", "--all"]
     run = subprocess.run(
         [*build, "-W", "-n", "--keep-going"],
@@ -62,12 +89,14 @@ def pages(request, tmp_path_factory):
     )
     assert run.returncode == 0, (run.stdout + run.stderr)[-3000:]
     built = tree / "_build" / "html"
-    return {
+    pages = {
         str(path.relative_to(built)): readable(path)
         for folder in ("book", "notebooks")
         for path in sorted((built / folder).glob("*.html"))
         if path.stem not in NOT_ABOUT_THE_SPRING
     }
+    k = fit_spring(load_spring_data(data)).stiffness
+    return Book(pages, data, Robot(k, k))
 
 
 def readable(path):
@@ -81,22 +110,49 @@ def readable(path):
 
 
 @pytest.mark.parametrize("what", NEVER)
-def test_no_page_shows(pages, what):
+def test_no_page_shows(book, what):
     found = {
         page: [
             text[max(at.start() - 40, 0) : at.end() + 40] for at in re.finditer(NEVER[what], text)
         ]
-        for page, text in pages.items()
+        for page, text in book.pages.items()
     }
     assert not {page: places for page, places in found.items() if places}
 
 
-def test_no_page_calls_the_data_synthetic(pages):
+def test_no_page_calls_the_data_synthetic(book):
     claims = re.compile(r"these data are synthetic|data are \*{0,2}synthetic", re.IGNORECASE)
-    assert not [page for page, text in pages.items() if claims.search(text)]
+    assert not [page for page, text in book.pages.items() if claims.search(text)]
+    assert book.data.name in book.pages["book/data.html"]
 
 
-def test_a_curved_spring_is_not_called_linear(pages, request):
-    curved = request.node.callspec.params["pages"] is curved_spring
-    text = pages["notebooks/01-regression.html"]
+def test_a_curved_spring_is_not_called_linear(book):
+    curved = book.data.suffix == ".mat"
+    text = book.pages["notebooks/01-regression.html"]
     assert ("is not justified" in text or "is justified" not in text) == curved
+
+
+def test_the_verdicts_follow_the_spring(book):
+    lost = [v for v in ASKED if margin(book.robot, GaussianBump(), v) < 0]
+    for part, item in (
+        ("02-crank-nicolson", "6(i)"),
+        ("02-crank-nicolson", "6(iii)"),
+        ("03-runge-kutta", "10(i)"),
+    ):
+        rows = re.findall(r"(?<!\S)(0\.25|1\.2|5|10) (kept|lost)\b", book.answer(part, item))
+        assert rows == [(f"{v:g}", "lost" if v in lost else "kept") for v in ASKED]
+        sentence = re.search(r"[Cc]ontact is lost at (.*?)(, and|:|\.\s)", book.answer(part, item))[
+            1
+        ]
+        if lost:
+            assert re.findall(r"[\d.]+", sentence) == [f"{v:g}" for v in lost]
+        else:
+            assert sentence == "none of the four speeds"
+
+
+def test_only_unstable_runs_are_called_unstable(book):
+    limit = RK4.max_stable_dt(book.robot.eigenvalues)
+    told = book.answer("03-runge-kutta", "9(iii)")
+    grows = re.search(r"runs? with ([^,]*?) s, predicted unstable,", told)
+    unstable = [f"{dt:g}" for dt in STEPS if dt > limit]
+    assert (re.findall(r"[\d.]+", grows[1]) if grows else []) == unstable
