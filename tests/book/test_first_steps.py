@@ -34,7 +34,10 @@ def test_the_commands_for_windows_are_those_of_make():
 def test_a_command_for_windows_works(line):
     program, *arguments = line.removeprefix(".venv\\Scripts\\").split()
     assert program == "python"
-    harmless = {"pip": ["--dry-run", "--no-index"], "pytest": ["--collect-only", "tests/unit"]}
+    harmless = {
+        "pip": ["--dry-run", "--no-index"],
+        "pytest": ["--collect-only", "tests/unit/test_words.py"],
+    }
     code, output = run([sys.executable, *arguments, *harmless[arguments[1]]], ROOT)
     assert code == 0, output[-2000:]
 

@@ -123,7 +123,7 @@ def test_no_page_shows(book, what):
 def test_no_page_calls_the_data_synthetic(book):
     claims = re.compile(r"these data are synthetic|data are \*{0,2}synthetic", re.IGNORECASE)
     assert not [page for page, text in book.pages.items() if claims.search(text)]
-    assert book.data.name in book.pages["book/data.html"]
+    assert f", {len(load_spring_data(book.data))} readings" in book.pages["book/answers.html"]
 
 
 def test_a_curved_spring_is_not_called_linear(book):
