@@ -6,8 +6,8 @@ PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(
 BIN := .venv/bin
 VENV := .venv/.installed
 PEERS := .venv/bench/.installed
-# A fresh folder, or files of older builds would pile up; fixed seeds and dates, or two would differ.
-BUILD := rm -rf _build/html && PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
+# Fixed seeds and dates, or two builds would differ.
+BUILD := PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4

@@ -13,6 +13,7 @@ import hashlib
 import json
 import logging
 import re
+import shutil
 from html import unescape
 from io import BytesIO
 from pathlib import Path
@@ -35,6 +36,12 @@ PAGE_NAME = re.compile(r"DOCUMENTATION_OPTIONS\.pagename = .*;")
 NESTING = ("media", "supports", "layer", "container")  # rules that hold rules
 PRIVATE_USE = 0xE000  # code points from here on are icons
 SEARCH = ("searchtools.js", "language_data.js", "searchindex.js")  # only the search page searches
+
+
+def start_afresh(app):
+    """Empty the folder of the pages: an older build has left files that cannot be lightened."""
+    for path in Path(app.outdir).iterdir() if app.builder.format == "html" else []:
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
 def lighten(app, exception):
@@ -310,6 +317,7 @@ def all_pages(app, env, added, changed, removed):
 
 def setup(app):
     """Connect to Sphinx, after the repairs of the theme."""
+    app.connect("builder-inited", start_afresh, priority=0)
     app.connect("env-get-outdated", all_pages)
     app.connect("build-finished", lighten, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
