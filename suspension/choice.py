@@ -5,6 +5,7 @@ twice are equally far, and stiffness and damping count alike.
 """
 
 from dataclasses import replace
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,7 @@ __all__ = [
 
 STEPS = 1000  # of a run, in maps
 MAX_MARGINS = 10**4  # some ten seconds
+STARTS = 3  # points of the grid from which the search begins
 EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
 
 
@@ -138,8 +140,8 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     """The least change of stiffness and damping that keeps contact at all of several speeds.
 
     The suspensions of the grid are tried by exact margins, those near the robot's first. From the
-    first that keeps contact SciPy's SLSQP goes to the nearest point where every margin is at least
-    `reserve`.
+    first three that keep contact SciPy's SLSQP (Kraft 1988) goes to the nearest point where every
+    margin is at least `reserve`.
 
     Parameters
     ----------
@@ -190,21 +192,23 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
         return Choice(robot, 0.0, float(spare(start).min() + reserve))
     points = np.array([[x, y] for x in np.log(k) for y in np.log(c)])
     points = points[np.argsort(np.hypot(*(points - start).T))]
-    first = next(filter(keeps, points), None)
-    if first is None:
+    starts = list(islice(filter(keeps, points), STARTS))
+    if not starts:
         return None
-    found = minimize(
-        lambda x: np.sum((x - start) ** 2),
-        first,
-        jac=lambda x: 2 * (x - start),
-        method="SLSQP",
-        bounds=np.log([(k[0], k[-1]), (c[0], c[-1])]),
-        constraints={"type": "ineq", "fun": spare},
-        options={"ftol": 1e-12},
-    )
-    x = found.x if spare(found.x).min() >= -EDGE else first
-    if np.hypot(*(x - start)) > np.hypot(*(first - start)):
-        x = first
+    found = [
+        minimize(
+            lambda x: np.sum((x - start) ** 2),
+            first,
+            jac=lambda x: 2 * (x - start),
+            method="SLSQP",
+            bounds=np.log([(k[0], k[-1]), (c[0], c[-1])]),
+            constraints={"type": "ineq", "fun": spare},
+            options={"ftol": 1e-12},
+        ).x
+        for first in starts
+    ]
+    reached = [x for x in found if spare(x).min() >= -EDGE]
+    x = min([*reached, starts[0]], key=lambda x: np.hypot(*(x - start)))
     least = float(spare(x).min() + reserve)
     return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
 

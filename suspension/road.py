@@ -137,8 +137,11 @@ class RoughRoad:
         x = _checks.array("x", x, finite=False)
         rate = 2j * np.pi * self.wavenumbers
         both = np.column_stack([self.amplitudes, rate * self.amplitudes])
-        parts = np.array_split(x.ravel(), 1 + x.size * len(rate) // BLOCK)
-        H = np.concatenate([(np.exp(np.multiply.outer(part, rate)) @ both).real for part in parts])
+        H, flat = np.empty((x.size, 2)), x.ravel()
+        step = 1 + BLOCK // len(rate)
+        for i in range(0, x.size, step):
+            waves = np.exp(np.multiply.outer(flat[i : i + step], rate))
+            H[i : i + step] = (waves @ both).real
         return H[:, 0].reshape(x.shape), H[:, 1].reshape(x.shape)
 
 
