@@ -29,8 +29,9 @@ __all__ = [
 ]
 
 STEPS = 1000  # of a run, in maps
-MAX_MARGINS = 10**4  # some ten seconds
-STARTS = 3  # points of the grid from which the search begins
+MAX_MARGINS = 10**4  # exact ones: some ten seconds
+MAX_RUNS = 10**5  # all at once: as long
+STARTS = 2  # points of the grid from which the search begins
 EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
 
 
@@ -91,15 +92,20 @@ def demands(robot, road, v, k, c):
     v : array_like, shape (speeds,)
         m/s, > 0.
     k, c : array_like, shapes (n,) and (m,)
-        Stiffness, N/m, and damping, N s/m, of both axles.
+        Stiffness, N/m, and damping, N s/m, of both axles, > 0 and in order.
 
     Returns
     -------
     Demands
         From runs of 1000 steps each, all at once (`suspension.sweep.peaks`): sampled, not exact.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or all together are more than 10^5 runs.
     """
     _checks.instance("robot", robot, Robot)
-    k, c, v = (_checks.array(*pair, (None,)) for pair in (("k", k), ("c", c), ("v", v)))
+    v, k, c = _grid(v, k, c, MAX_RUNS)
     robots = np.array(
         [[fitted_with(robot, stiffness, damping) for stiffness in k] for damping in c]
     )
@@ -140,7 +146,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     """The least change of stiffness and damping that keeps contact at all of several speeds.
 
     The suspensions of the grid are tried by exact margins, those near the robot's first. From the
-    first three that keep contact SciPy's SLSQP (Kraft 1988) goes to the nearest point where every
+    first two that keep contact SciPy's SLSQP (Kraft 1988) goes to the nearest point where every
     margin is at least `reserve`.
 
     Parameters
@@ -260,7 +266,8 @@ def _own(robot, bump):
     return np.log([robot.k1, robot.c1])
 
 
-def _grid(v, k, c):
+def _grid(v, k, c, most=MAX_MARGINS):
+    """Speeds, stiffnesses and dampings as arrays, not too many together."""
     v, k, c = (_checks.array(*pair, (None,)) for pair in (("v", v), ("k", k), ("c", c)))
     for name, values in (("v", v), ("k", k), ("c", c)):
         if not (values.size and (values > 0).all()):
@@ -268,6 +275,6 @@ def _grid(v, k, c):
         if name != "v" and not (np.diff(values) > 0).all():
             raise ValueError(f"{name} must be in order, got {values}")
     cost = v.size * k.size * c.size
-    if cost > MAX_MARGINS:
-        raise ValueError(f"k, c and v must ask for at most {MAX_MARGINS} margins, got {cost}")
+    if cost > most:
+        raise ValueError(f"k, c and v must ask for at most {most} runs, got {cost}")
     return v, k, c

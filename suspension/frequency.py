@@ -145,7 +145,7 @@ def spectral_rms(robot, v, roughness, longest, shortest, points=20001):
     longest, shortest : float
         The ends of the band of wavelengths, m.
     points : int
-        Of the trapezoidal rule in ln n, >= 2.
+        Of the trapezoidal rule in ln n, 2 to 10^6.
 
     Returns
     -------
@@ -153,7 +153,10 @@ def spectral_rms(robot, v, roughness, longest, shortest, points=20001):
     """
     roughness = _checks.nonnegative("roughness", roughness)
     shortest, longest = _checks.ends("shortest", shortest, "longest", longest)
-    x = np.linspace(-np.log(longest), -np.log(shortest), _checks.whole("points", points, 2))
+    points = _checks.whole("points", points, 2)
+    if points > MAX_WAVES:
+        raise ValueError(f"points must be at most {MAX_WAVES}, got {points}")
+    x = np.linspace(-np.log(longest), -np.log(shortest), points)
     n = np.exp(x)
     weights = np.full(len(x), x[1] - x[0])
     weights[[0, -1]] /= 2

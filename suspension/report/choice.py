@@ -44,6 +44,7 @@ __all__ = [
 ]
 
 ALMOST = 0.2  # of a logarithm: a fifth more or less
+SHOWN = 0.005  # N; a margin closer to zero is shown as zero
 SURE = 1.5  # times as steep as the steepest chord: below that a grid says little
 
 
@@ -335,11 +336,12 @@ def robust_table(least):
 
 def robust_words(least, name):
     """Which cases one suspension does not survive."""
-    fails = [case for case, margins in least.items() if margins[name] < 0]
+    fails = [case for case, margins in least.items() if margins[name] < -SHOWN]
+    each = "in every case of the table"
     if not fails:
-        return (
-            f"The suspension “{name}” keeps contact at the four speeds in every case of the table."
-        )
+        return f"The suspension “{name}” keeps contact at the four speeds {each}."
+    if len(fails) == len(least):
+        return f"The suspension “{name}” loses contact at one of the four speeds {each}."
     return (
         f"The suspension “{name}” loses contact at one of the four speeds in "
         f"{count(len(fails), 'case')} of {len(least)}: {join(fails)}."
@@ -442,7 +444,7 @@ def rms_caption(names, classes):
     )
 
 
-def conclusions(robot, least, reserved, excluded, wide, rows, reserve, asked):
+def conclusions(robot, least, reserved, excluded, wide, holds, rows, reserve, asked):
     """What an engineer should take away: five sentences.
 
     Parameters
@@ -452,6 +454,8 @@ def conclusions(robot, least, reserved, excluded, wide, rows, reserve, asked):
         The cheapest for contact at the asked speeds, with a reserve, and in their whole range.
     excluded : suspension.choice.Exclusion
         Of the springs on which the robot rests within the measured displacements.
+    holds : bool
+        Whether `wide` keeps contact at every speed of the range, not only at those it was made for.
     rows : list of dict
         As in `rough_table`.
     reserve : float
@@ -501,17 +505,21 @@ def conclusions(robot, least, reserved, excluded, wide, rows, reserve, asked):
     else:
         fourth = (
             f"Ask for a range of speeds, not for four: from {low:g} to {high:g}{SPACE}m/s it takes "
-            f"{quantity(wide.robot.k1, 'N/m')}."
+            f"{quantity(wide.robot.k1, 'N/m')}"
+        )
+        fourth += (
+            "." if holds else ", and even that loses contact between the speeds it is made for."
         )
     names = list(dict.fromkeys(row["name"] for row in rows))
     flights = {name: sum(row["flights"] for row in rows if row["name"] == name) for name in names}
     most, fewest = max(names, key=flights.get), min(names, key=flights.get)
     if flights[most] == flights[fewest]:
-        fifth = "On the rough road the suspensions fly equally often."
+        fifth = "On the rough road a softer spring makes no difference in the number of flights."
     else:
+        seldom = count(flights[fewest], "time") if flights[fewest] else "never"
         fifth = (
             f"On the rough road “{most}” flies {count(flights[most], 'time')} and “{fewest}” "
-            f"{count(flights[fewest], 'time')}: softness helps there too."
+            f"{seldom}: what is chosen for one bump is felt there too."
         )
     sentences = [first, second, third, fourth, fifth]
     return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
