@@ -97,9 +97,13 @@ def plot_demand_map(k, c, values, levels, marks, label, ax=None):
     ticks = [x for x in (100, 200, 500, 1000, 2000, 5000) if k[0] <= x <= k[-1]]
     ax.set_xticks(ticks, [str(x) for x in ticks])
     ax.set_xticks([], minor=True)
+    ticks = [x for x in (0.2, 0.5, 1, 2, 5, 10, 20) if c[0] <= x <= c[-1]]
+    ax.set_yticks(ticks, [f"{x:g}" for x in ticks])
+    ax.set_yticks([], minor=True)
     ax.grid(False)
     ax.set_title(label, fontsize=9)
-    ax.figure.colorbar(filled, ax=ax, orientation="horizontal", aspect=15)
+    bar = ax.figure.colorbar(filled, ax=ax, orientation="horizontal", aspect=15)
+    bar.set_ticks(levels[::2])
     return ax
 
 
@@ -114,9 +118,8 @@ def plot_front(compression, margin, acceleration, marks, ax=None):
         Suspensions by name: compression, m, and margin, N.
     """
     ax = axes_or_new(ax)
-    dots = ax.scatter(
-        1000 * np.asarray(compression), margin, c=acceleration, cmap="cividis", s=16, norm="log"
-    )
+    travel = 1000 * np.asarray(compression)
+    dots = ax.scatter(travel, margin, c=acceleration, cmap="cividis", s=16)
     for marker, (name, (travel, force)) in zip(MARKERS, marks.items()):
         style = {"mfc": "white", "mec": "k", "ms": 8, "ls": "", "zorder": 4}
         ax.plot(1000 * travel, force, marker, label=name, **style)
@@ -176,8 +179,8 @@ def plot_rough_ride(x, H, places, N, axes):
     axes[1].fill_between(
         places, 0, in_the_air, transform=inside, color="#fbe3d6", lw=0, zorder=0, step="mid"
     )
-    axes[1].set(ylabel="normal force (N)", ylim=(0, None))
-    axes[1].legend(loc="upper right")
+    axes[1].set(ylabel="normal force (N)", ylim=(0, 1.25 * np.max(N)))
+    axes[1].legend(loc="upper right", ncols=2)
     for ax in axes:
         ax.set(xlim=(places[0], places[-1]))
     axes[1].set(xlabel="place $X$ (m)")

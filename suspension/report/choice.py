@@ -20,9 +20,9 @@ from suspension.report.words import (
 )
 
 __all__ = [
+    "beaten",
     "best_table",
     "between",
-    "change",
     "choice_table",
     "conclusions",
     "cost",
@@ -95,7 +95,7 @@ def ripples_caption(v):
         "(dotted).",
         f"Two panels over speed from {number(v[0])} to {number(v[-1])}{SPACE}m/s. Above the "
         "margin, wavy at low speed. Below the swings in heave and pitch: each ripples below a "
-        "smooth dotted curve, and heave is largest about where pitch is smallest.",
+        "smooth dotted curve; where one mode is quiet the other tends to be loud.",
     )
 
 
@@ -165,26 +165,34 @@ def front_caption(kept, total):
     )
 
 
-def change(robot, choice):
-    """What is changed, in words.
-
-    Parameters
-    ----------
-    robot, choice : Robot
-        As it is, and with another suspension.
-    """
-    if (robot.k1, robot.c1) == (choice.k1, choice.c1):
-        return "none"
-    return f"k × {number(choice.k1 / robot.k1)}, c × {number(choice.c1 / robot.c1)}"
-
-
-def choice_table(robot, choices, margins, peaks, limit):
-    """The suspensions beside each other.
+def beaten(robot, better):
+    """Whether the present suspension is among the best compromises.
 
     Parameters
     ----------
     robot : Robot
-        As it is.
+    better : (float, float) or None
+        The nearest suspension that is better in all three criteria, k and c, N/m and N s/m.
+    """
+    if better is None:
+        return (
+            f"The present suspension, {quantity(robot.k1, 'N/m')} and "
+            f"{quantity(robot.c1, 'N s/m')}, is a best compromise itself: none of the map is "
+            "better in all three."
+        )
+    k, c = better
+    return (
+        f"The present suspension, {quantity(robot.k1, 'N/m')} and {quantity(robot.c1, 'N s/m')}, "
+        f"is none of them: with {quantity(k, 'N/m')} and {quantity(c, 'N s/m')}, for example, *all* "
+        "three would be better."
+    )
+
+
+def choice_table(choices, margins, peaks, limit):
+    """The suspensions beside each other: their margins, then what they ask for.
+
+    Parameters
+    ----------
     choices : dict of str to Robot
     margins : dict of str to dict of float to float
         For each the margins at the asked speeds, N.
@@ -193,23 +201,33 @@ def choice_table(robot, choices, margins, peaks, limit):
     limit : float
         Largest displacement at which the spring was measured, m.
     """
-    rows = []
+    first, second = [], []
     for name, other in choices.items():
         acceleration, compression = peaks[name]
-        sag = -other.equilibrium[0]
-        rows.append(
+        first.append(
             {
                 "suspension": name,
                 "k (N/m)": number(other.k1),
                 "c (N s/m)": number(other.c1),
-                "change": change(robot, other),
-                **{f"margin at {v:g}{SPACE}m/s (N)": fixed(m, 2) for v, m in margins[name].items()},
-                "acceleration (m/s²)": fixed(acceleration, 1),
-                r"at rest, of $\delta_{\max}$": fixed(sag / limit, 2),
+                **{f"{v:g}{SPACE}m/s": fixed(m, 2) for v, m in margins[name].items()},
+            }
+        )
+        second.append(
+            {
+                "suspension": name,
+                "largest acceleration (m/s²)": fixed(acceleration, 1),
+                r"at rest, of $\delta_{\max}$": fixed(-other.equilibrium[0] / limit, 2),
                 r"at most, of $\delta_{\max}$": fixed(compression / limit, 2),
             }
         )
-    return table(rows)
+    return "\n\n".join(
+        [
+            "Margins in N at the asked speeds:",
+            table(first),
+            "and what the suspensions ask for, acceleration and compression of the springs:",
+            table(second),
+        ]
+    )
 
 
 def needed(robot, least, asked, reserve=0.0):
@@ -400,11 +418,11 @@ def rough_table(rows):
             {
                 "suspension": row["name"],
                 "v (m/s)": f"{row['v']:g}",
-                "force, RMS (N)": fixed(row["force"], 2),
-                "acceleration, RMS (m/s²)": fixed(row["acceleration"], 2),
-                "pitch, RMS (degrees)": fixed(np.degrees(row["pitch"]), 2),
-                "pulled, expected": _part(row["expected"]),
-                "pulled, counted": _part(row["counted"]),
+                "force (N)": fixed(row["force"], 2),
+                "acceleration (m/s²)": fixed(row["acceleration"], 2),
+                "pitch (degrees)": fixed(np.degrees(row["pitch"]), 2),
+                "pulled: expected": _part(row["expected"]),
+                "counted": _part(row["counted"]),
                 "flights": str(row["flights"]),
                 "in the air": _part(row["air"]),
             }
