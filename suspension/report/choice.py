@@ -172,7 +172,7 @@ def beaten(robot, better):
     ----------
     robot : Robot
     better : (float, float) or None
-        The nearest suspension that is better in all three criteria, k and c, N/m and N s/m.
+        A suspension that is better in all three criteria, k and c, N/m and N s/m.
     """
     if better is None:
         return (
@@ -181,9 +181,10 @@ def beaten(robot, better):
             "better in all three."
         )
     k, c = better
+    present = f"{quantity(robot.k1, 'N/m')} and {quantity(robot.c1, 'N s/m')}"
+    other = f"{quantity(k, 'N/m')} and {quantity(c, 'N s/m')}"
     return (
-        f"The present suspension, {quantity(robot.k1, 'N/m')} and {quantity(robot.c1, 'N s/m')}, "
-        f"is none of them: with {quantity(k, 'N/m')} and {quantity(c, 'N s/m')}, for example, *all* "
+        f"The present suspension, {present}, is none of them: with {other}, for example, *all* "
         "three would be better."
     )
 
