@@ -486,7 +486,7 @@ def conclusions(robot, least, reserved, excluded, wide, holds, rows, reserve, as
     if least is None:
         first = "No suspension of those tried keeps contact at the four speeds."
     elif least.distance == 0:
-        first = "As it is the robot keeps contact at the four speeds: leave its suspension alone."
+        first = "As it is the robot keeps contact at the four speeds: for these its suspension may stay."
     else:
         springs = f"springs of {quantity(least.robot.k1, 'N/m')}"
         times = _times(least.robot.k1 / robot.k1)
@@ -506,8 +506,8 @@ def conclusions(robot, least, reserved, excluded, wide, holds, rows, reserve, as
         third = "A reserve is not to be had in the range that was tried."
     elif reserved.distance == 0:
         third = (
-            f"Its margin, {quantity(reserved.margin, 'N')}, is a reserve against a bump that is "
-            "higher than thought."
+            f"The robot's margin, {quantity(reserved.margin, 'N')}, is a reserve against a bump "
+            "that is higher than thought."
         )
     else:
         part = reserve / (robot.m * robot.g / 2)
