@@ -486,7 +486,10 @@ def conclusions(robot, least, reserved, excluded, wide, holds, rows, reserve, as
     if least is None:
         first = "No suspension of those tried keeps contact at the four speeds."
     elif least.distance == 0:
-        first = "As it is the robot keeps contact at the four speeds: for these its suspension may stay."
+        first = (
+            "As it is the robot keeps contact at the four speeds: for these its suspension may "
+            "stay."
+        )
     else:
         springs = f"springs of {quantity(least.robot.k1, 'N/m')}"
         times = _times(least.robot.k1 / robot.k1)
