@@ -13,6 +13,8 @@ What goes beyond:
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `flight`: what happens after it has
 - `sweep`: very many runs at once
+- `frequency`: what the robot makes of waves in the road, and of rough roads
+- `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,

@@ -1,7 +1,9 @@
-"""Many robots at many speeds over one road: the smallest normal forces of all the runs.
+"""Many robots at many speeds over one road: the extremes of all the runs.
 
 One loop over the steps of all cases at once, with the case as the last axis of every array.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,7 +12,7 @@ from suspension.road import under_wheels
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 
-__all__ = ["sweep"]
+__all__ = ["Peaks", "peaks", "sweep"]
 
 BATCH = 1024  # cases worked on at a time, whose matrices stay in the processor's cache
 MAX_STEPS = 10**5  # of one run: some ten seconds
@@ -64,6 +66,80 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
     array([[  4.7 ,  -4.4 ,   3.43],
            [  5.6 , -25.23,   1.67]])
     """
+    least, _ = _extremes(robots, road, v, steps, distance, scheme, _forces)
+    at_rest = _at_rest(robots, least.shape[:-1])
+    return least + at_rest
+
+
+class Peaks(NamedTuple):
+    """The extremes of runs, each over the samples of one run.
+
+    Attributes
+    ----------
+    force : ndarray, shape (..., 2)
+        Smallest normal force of the rear and the front wheel, N.
+    acceleration : ndarray, shape (...)
+        Largest ``|Y''|`` of the centre of mass, m/s^2.
+    compression : ndarray, shape (..., 2)
+        Largest compression ``h - Y_i`` of the rear and the front spring, m.
+    """
+
+    force: np.ndarray
+    acceleration: np.ndarray
+    compression: np.ndarray
+
+
+def peaks(robots, road, v, *, steps, distance=1.25, scheme=RK4):
+    """Smallest forces, largest acceleration and largest compressions of very many runs.
+
+    The arguments, the runs and what is refused are those of `sweep`. All is linear: after a loss
+    of contact the numbers are those of a ground that pulls.
+
+    Returns
+    -------
+    Peaks
+
+    Examples
+    --------
+    >>> from suspension.road import GaussianBump
+    >>> found = peaks(Robot(800, 800), GaussianBump(), [0.25, 1.2], steps=2000)
+    >>> found.acceleration.round(2), (1000 * found.compression.max(axis=-1)).round(1)
+    (array([ 1.29, 33.49]), array([ 9.8, 47.4]))
+    """
+    low, high = _extremes(robots, road, v, steps, distance, scheme, _demands)
+    at_rest = _at_rest(robots, low.shape[:-1])
+    sag = at_rest / _broadcast(robots, low.shape[:-1], lambda robot: robot.k)
+    acceleration = np.maximum(high[..., 2], -low[..., 2])
+    return Peaks(low[..., :2] + at_rest, acceleration, high[..., 3:] + sag)
+
+
+def _forces(robot):
+    """Deviation of both normal forces from those at rest, as ``C d + D u``."""
+    return robot.C, robot.D
+
+
+def _demands(robot):
+    """The same of forces, acceleration of the centre of mass, and both compressions."""
+    still, one = np.zeros(2), np.ones(2)
+    Cp = -np.column_stack([one, still, robot.arms, still])
+    C = np.vstack([robot.C, robot.C.sum(axis=0) / robot.m, Cp])
+    return C, np.vstack([robot.D, robot.D.sum(axis=0) / robot.m, np.eye(2, 4)])
+
+
+def _broadcast(robots, shape, quantity):
+    """A quantity of shape (2,) of each robot, for all cases: shape (..., 2)."""
+    robots = _robots(robots)
+    values = np.array([quantity(robot) for robot in robots.flat]).reshape(*robots.shape, 2)
+    return np.broadcast_to(values, (*shape, 2))
+
+
+def _at_rest(robots, shape):
+    """Normal forces at rest, N, of all cases."""
+    return _broadcast(robots, shape, lambda robot: robot.C @ robot.equilibrium)
+
+
+def _extremes(robots, road, v, steps, distance, scheme, outputs):
+    """Smallest and largest outputs of every run, shape (..., outputs), from rest at zero."""
     robots, v = _robots(robots), _checks.array("v", v)
     _checks.instance("scheme", scheme, Scheme)
     if not (v > 0).all():
@@ -83,7 +159,8 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
             f"got {v.size} cases of {steps} steps"
         )
     shape, robots, v = v.shape, robots.ravel(), v.ravel()
-    least = np.empty((v.size, 2))
+    rows = len(outputs(Robot(1, 1))[0])
+    low, high = np.empty((v.size, rows)), np.empty((v.size, rows))
     bases = [(robot.L1, robot.L2) for robot in robots]
     X = distance / steps * np.arange(steps + 1)
     abscissae = np.unique([0.0, *scheme.c])
@@ -95,15 +172,16 @@ def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
         ground = np.vstack(under_wheels(robots[cases[0]], road, places.ravel()))
         ground = np.moveaxis(ground.reshape(4, *places.shape), 0, -1).reshape(steps + 1, -1)
         for some in np.split(cases, range(BATCH, len(cases), BATCH)):
-            least[some] = _least_forces(
-                robots[some], v[some], ground, abscissae, distance / steps, scheme
+            low[some], high[some] = _batch(
+                robots[some], v[some], ground, abscissae, distance / steps, scheme, outputs
             )
-    return least.reshape(*shape, 2)
+    return low.reshape(*shape, rows), high.reshape(*shape, rows)
 
 
-def _least_forces(robots, v, ground, abscissae, dX, scheme):
-    """Smallest forces of n cases on the same road, shape (n, 2)."""
-    A, B, C, D = (np.array([getattr(robot, name) for robot in robots]) for name in "ABCD")
+def _batch(robots, v, ground, abscissae, dX, scheme, outputs):
+    """Smallest and largest outputs of n cases on the same road, shape (n, outputs)."""
+    A, B = (np.array([getattr(robot, name) for robot in robots]) for name in "AB")
+    C, D = map(np.array, zip(*map(outputs, robots)))
     slow = v[:, None, None]
     felt = np.concatenate([np.ones((2, len(v))), [v, v]]).T[:, None]  # height; rate of change
     B, D = B * felt, D * felt
@@ -115,13 +193,15 @@ def _least_forces(robots, v, ground, abscissae, dX, scheme):
         for M in (R, np.concatenate(inputs, axis=2), C, D)
     )
     d = np.zeros((4, len(v)))  # deviation from equilibrium
-    least = np.full((2, len(v)), np.inf)
+    low = np.full((C.shape[0], len(v)), np.inf)
+    high = -low
     with np.errstate(over="ignore", invalid="ignore"):  # an unstable run may overflow
         for u in ground:
-            N = np.einsum("ijn,jn->in", C, d) + np.einsum("ijn,j->in", D, u[:4])
-            np.minimum(least, N, out=least)
+            y = np.einsum("ijn,jn->in", C, d) + np.einsum("ijn,j->in", D, u[:4])
+            np.minimum(low, y, out=low)
+            np.maximum(high, y, out=high)
             d = np.einsum("ijn,jn->in", R, d) + np.einsum("ijn,j->in", inputs, u)
-    return least.T + [robot.C @ robot.equilibrium for robot in robots]
+    return low.T, high.T
 
 
 def _robots(robots):

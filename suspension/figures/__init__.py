@@ -2,9 +2,18 @@
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
 the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
-`speeds`, and `robot`, the robot itself, still or moving.
+`speeds`, `choice`, and `robot`, the robot itself, still or moving.
 """
 
+from suspension.figures.choice import (
+    plot_demand_map,
+    plot_front,
+    plot_gains,
+    plot_margins,
+    plot_ripples,
+    plot_rms,
+    plot_rough_ride,
+)
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
 from suspension.figures.forces import plot_all_forces, plot_flight, plot_forces
 from suspension.figures.regression import (
@@ -24,21 +33,28 @@ __all__ = [
     "film",
     "plot_all_forces",
     "plot_confidence_region",
+    "plot_demand_map",
     "plot_errors",
     "plot_experiments",
     "plot_fit",
     "plot_flight",
     "plot_forces",
+    "plot_front",
+    "plot_gains",
     "plot_growth",
     "plot_heave",
     "plot_margin",
     "plot_margin_map",
+    "plot_margins",
     "plot_missed_dip",
     "plot_modes",
     "plot_near_zero",
     "plot_pitch",
     "plot_residuals",
+    "plot_ripples",
+    "plot_rms",
     "plot_road_signal",
+    "plot_rough_ride",
     "plot_seen_mode",
     "plot_sensitivities",
     "plot_slopes",

@@ -718,7 +718,7 @@ def test_no_page_of_the_book_brings_a_widget_manager(book):
 
 
 def test_phrases_of_the_book_set_its_picture(visit, site, book):
-    tab = visit(f"{site}notebooks/07-drive.html")
+    tab = visit(f"{site}notebooks/09-drive.html")
     links = tab.locator("article a[href^='#explore:']")
     assert links.count() >= 5
     for nth in range(links.count()):

@@ -22,10 +22,11 @@ from helpers import ROOT
 from matplotlib import pyplot as plt
 
 import suspension
-from suspension import contact, course, exact, springs
+from suspension import choice, contact, course, exact, frequency, springs
 from suspension.animation import animate_robot
 from suspension.explorer import explore
-from suspension.sweep import sweep
+from suspension.road import RoughRoad
+from suspension.sweep import peaks, sweep
 from suspension.travel import travel
 
 matplotlib.use("Agg")
@@ -36,6 +37,7 @@ ENOUGH = 30  # bad values for every function
 ROBOT = suspension.Robot(800, 800)
 BUMP = suspension.GaussianBump()
 RK4 = suspension.RK4
+ROUGH = RoughRoad(1e-5, length=1, shortest=0.2)
 DATA = springs.load_spring_data(ROOT / "data" / "spring_data.csv")
 FIT = springs.fit_spring(DATA)
 T = np.linspace(0, 1, 11)
@@ -305,20 +307,102 @@ TABLE = [
         {"v": NOT_POSITIVE, "names": [*NOT_A_NUMBER, "k", "V", "height", ["k1"]]},
         NO_CROSSING,
     ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10}
+            | {"distance": 1.0, "scheme": RK4},
+            {
+                "robots": [[ROBOT] * 3],
+                "road": NO_ROADS,
+                "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
+                "steps": [*NOT_WHOLE, 10**12, 10**9],
+                "distance": NOT_POSITIVE,
+            },
+            {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+            | {"scheme": NOT_A_SCHEME},
+        )
+        for function in (sweep, peaks)
+    ),
     Row(
-        "sweep",
-        sweep,
-        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10, "distance": 1.0}
-        | {"scheme": RK4},
+        "RoughRoad",
+        RoughRoad,
+        {"roughness": 1e-5, "length": 1.0, "shortest": 0.1, "seed": 1},
         {
-            "robots": [[ROBOT] * 3],
-            "road": NO_ROADS,
-            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
-            "steps": [*NOT_WHOLE, 10**12, 10**9],
-            "distance": NOT_POSITIVE,
+            "roughness": NOT_NONNEGATIVE,
+            "length": [*NOT_POSITIVE, 0.01, 1e5],
+            "shortest": [*NOT_POSITIVE, 2, 1e-6],
+            "seed": but([*NOT_WHOLE, 10**400], *ZERO),
         },
-        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
-        | {"scheme": NOT_A_SCHEME},
+    ),
+    Row("RoughRoad()", ROUGH, {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "response",
+        frequency.response,
+        {"robot": ROBOT, "v": 1.2, "wavenumber": T},
+        {"v": NOT_A_NUMBER, "wavenumber": [*not_finite(T), np.zeros(10**6 + 1)]},
+        {"robot": NOT_A_ROBOT},
+    ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "road": ROUGH, "v": 1.2},
+            {"v": NOT_A_NUMBER},
+            {"robot": NOT_A_ROBOT, "road": [*NOT_AN_OBJECT, BUMP, len]},
+        )
+        for function in (frequency.steady_start, frequency.rms)
+    ),
+    Row(
+        "spectral_rms",
+        frequency.spectral_rms,
+        {"robot": ROBOT, "v": 1.2, "roughness": 1e-5, "longest": 2, "shortest": 1, "points": 9},
+        {
+            "v": NOT_A_NUMBER,
+            "roughness": NOT_NONNEGATIVE,
+            "longest": [*NOT_POSITIVE, 1, 0.5],
+            "shortest": [*NOT_POSITIVE, 2, 3],
+            "points": [*NOT_WHOLE, 1, 10**7],
+        },
+        {"robot": NOT_A_ROBOT},
+    ),
+    Row(
+        "demands",
+        choice.demands,
+        {"robot": ROBOT, "road": BUMP, "v": [1.0, 2.0], "k": [500.0, 800.0], "c": [1.0, 2.0]},
+        {
+            "road": NO_ROADS,
+            "v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1]],
+            "k": [*not_finite([1.0, 2.0]), [0, 1], [1, -1]],
+            "c": [*not_finite([1.0, 2.0]), [0, -1]],
+        },
+        NO_DRIVE,
+    ),
+    Row(
+        "efficient",
+        choice.efficient,
+        {"costs": np.ones((3, 2))},
+        {"costs": not_finite(np.ones((3, 2)))},
+    ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "bump": BUMP, "v": [5.0, 10.0], "k": [500.0, 800.0], "c": [1.0, 2.0]}
+            | more,
+            {
+                "v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], []],
+                "k": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], [2, 1], [], np.arange(1, 9999)],
+                "c": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], [2, 1], [], np.arange(1, 9999)],
+            }
+            | bad,
+            NO_CROSSING,
+        )
+        for function, more, bad in (
+            (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_A_NUMBER}),
+            (choice.exclusion, {}, {}),
+        )
     ),
     Row(
         "travel",

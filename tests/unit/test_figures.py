@@ -14,20 +14,27 @@ from suspension.figures import (
     film,
     plot_all_forces,
     plot_confidence_region,
+    plot_demand_map,
     plot_errors,
     plot_experiments,
     plot_fit,
     plot_flight,
     plot_forces,
+    plot_front,
+    plot_gains,
     plot_growth,
     plot_heave,
     plot_margin,
     plot_margin_map,
+    plot_margins,
     plot_missed_dip,
     plot_near_zero,
     plot_pitch,
     plot_residuals,
+    plot_ripples,
+    plot_rms,
     plot_road_signal,
+    plot_rough_ride,
     plot_seen_mode,
     plot_sensitivities,
     plot_slopes,
@@ -58,6 +65,8 @@ DTS = np.geomspace(1e-3, 0.1, 30)
 SEEN = {"RK4": np.full(30, -2 + 33j), "Euler": np.linspace(-1, 1, 30) + 30j}
 ERRORS = {"Euler": DTS, "RK4": DTS**4}
 HEAVE = {1.2: 0.01 * np.sin(V), 5.0: 0.01 * np.cos(V)}
+C = np.linspace(0.5, 5, 12)
+MODES = {"heave": 0.01 + 0 * V, "pitch": 0.02 + 0 * V}
 SENSITIVE = {"$k$": [1, 2], "$c$": [-1, 0.5], "$m$": [0.1, -0.3]}
 T = np.linspace(0, 1, 101)
 BOXES = np.array([[0.0, 0.0], [3.0, 0.0]]), np.ones((2, 2))  # the second misses the origin
@@ -76,11 +85,24 @@ ON_ONE = {
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
     "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
+    "plot_demand_map": lambda ax: plot_demand_map(
+        K, C, K / 100 - C[:, None], [-5, 0, 5], {"now": (800, 1.5)}, "margin (N)", ax
+    ),
+    "plot_front": lambda ax: plot_front(C / 100, C - 2, 1 + C, {"now": (0.02, 0)}, ax),
+    "plot_margins": lambda ax: plot_margins(V, {"now": FORCES[0], "then": FORCES[1]}, [1.2], ax),
+    "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
     "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
     "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
 ON_TWO = {
+    "plot_gains": lambda axes: plot_gains(V, HEAVE, HEAVE, ([0.4], [0.2]), axes),
+    "plot_ripples": lambda axes: plot_ripples(
+        V, FORCES[0], MODES, MODES, (V[::9], {name: x[::9] for name, x in MODES.items()}), axes
+    ),
+    "plot_rough_ride": lambda axes: plot_rough_ride(
+        T, 0.01 * T, T, [np.maximum(0, np.sin(9 * T)), 1 + T], axes
+    ),
     "plot_residuals": lambda axes: plot_residuals(FIT, DATA, axes),
     "plot_road_signal": lambda axes: plot_road_signal({1.2: (T, T, T), 5: (T, 0 * T, T)}, axes),
     "plot_flight": lambda axes: plot_flight(FLIGHT, LINEAR, axes),
@@ -89,8 +111,9 @@ ON_TWO = {
 }
 PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $n$", "amplitude of the mode"]
 PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
+PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|N|mm|N/m|m/s|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -422,3 +445,29 @@ def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
     first, second = ax.lines[1], ax.lines[3]
     near(np.polyfit(*first.get_data(), 1), [-1, 1], 1e-12)
     near(np.polyfit(*second.get_data(), 1), [0, 0.5], 1e-12)
+
+
+def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
+    marks = {"now": (800, 1.5), "then": (400, 2)}
+    ax = plot_demand_map(K, C, K / 100 - C[:, None] - 3, [-5, 0, 5], marks, "margin (N)")
+    drawn = lines(ax)
+    for name, place in marks.items():
+        near(np.ravel(drawn[name].get_xydata()), place, 1e-15)
+    assert title(ax) == "margin (N)"
+    without = plot_demand_map(K, C, K / 100 + C[:, None], [1, 5, 9], {}, "compression (mm)")
+    assert len(without.collections) < len(ax.collections)
+
+
+def test_a_rough_ride_is_shaded_where_a_wheel_is_in_the_air():
+    _, axes = plt.subplots(2)
+    plot_rough_ride(T, 0.01 * T, T, [np.where(T > 0.5, 0, 1), 1 + T], axes)
+    shaded = axes[1].collections[0].get_paths()[0].vertices
+    high = shaded[shaded[:, 1] == 1, 0]
+    assert high.min() > 0.48 and high.max() == 1
+
+
+def test_the_runs_lie_on_the_curves_of_the_root_mean_squares():
+    ax = plot_rms(V, {"now": [V, 2 * V]}, ([1.2, 5], [1.2, 5]), 7)
+    near(lines(ax)["long runs"].get_xydata(), [[1.2, 1.2], [5, 5]], 1e-15)
+    heights = [line.get_ydata()[0] for line in ax.lines if len(line.get_xdata()) == 2]
+    assert {7, 7 / 3} <= set(heights)

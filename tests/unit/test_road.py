@@ -5,11 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from suspension.road import FlatRoad, GaussianBump, road_input
+from suspension.road import ISO_8608, FlatRoad, GaussianBump, RoughRoad, road_input
 from suspension.robot import Robot
 
 ROBOT = Robot(800, 600, L1=0.107, L2=0.09)
 BUMP = GaussianBump()
+ROUGH = RoughRoad(ISO_8608["C"], length=4, shortest=0.1, seed=7)
 BUMPS = st.builds(
     GaussianBump, height=st.floats(-0.1, 0.1), sigma=st.floats(0.01, 1), centre=st.floats(-2, 2)
 )
@@ -35,7 +36,7 @@ def test_slope_is_the_derivative_of_height(bump):
     np.testing.assert_allclose(bump(x)[1], slope, rtol=0, atol=1e-10 * scale)
 
 
-@pytest.mark.parametrize("road", [BUMP, FlatRoad()], ids=["bump", "flat"])
+@pytest.mark.parametrize("road", [BUMP, FlatRoad(), ROUGH], ids=["bump", "flat", "rough"])
 @pytest.mark.parametrize("x", [0.3, np.zeros(0), np.ones(5), np.ones((2, 3)), [0, 1]])
 def test_road_returns_the_shape_it_is_given(road, x):
     H, dHdx = road(x)
@@ -103,3 +104,40 @@ def test_road_with_complex_heights_is_refused():
 def test_bump_that_cannot_be_is_refused_by_name(name, value):
     with pytest.raises(ValueError, match=f"^{name} must be .*, got {value!r}$"):
         GaussianBump(**{name: value})
+
+
+def test_slope_of_a_rough_road_is_the_derivative_of_its_height():
+    x = np.linspace(-3, 9, 331)
+    slope = central_difference(lambda x: ROUGH(x)[0], x, 1e-3)
+    np.testing.assert_allclose(ROUGH(x)[1], slope, rtol=0, atol=1e-5 * np.abs(slope).max())
+
+
+def test_a_rough_road_repeats_itself_and_another_seed_is_another_road():
+    x = np.linspace(0, 4, 101)
+    np.testing.assert_allclose(ROUGH(x + 4)[0], ROUGH(x)[0], atol=1e-13)
+    same, other = (RoughRoad(ISO_8608["C"], 4, 0.1, seed)(x)[0] for seed in (7, 8))
+    np.testing.assert_array_equal(same, ROUGH(x)[0])
+    assert np.corrcoef(same, other)[0, 1] < 0.9
+
+
+def test_a_rough_road_has_the_spectrum_of_its_class():
+    """The periodogram of its samples, over one period, is the density of ISO 8608."""
+    J = 256
+    H = ROUGH(np.arange(J) * ROUGH.length / J)[0]
+    periodogram = 2 * np.abs(np.fft.rfft(H)) ** 2 * ROUGH.length / J**2
+    n = np.fft.rfftfreq(J, ROUGH.length / J)
+    inside = (n > 0) & (n <= 10 + 1e-9)
+    density = 256e-6 * (n[inside] / 0.1) ** -2.0
+    np.testing.assert_allclose(periodogram[inside], density, rtol=1e-9)
+    assert periodogram[~inside].max() < 1e-20 and inside.sum() == 40
+
+
+def test_classes_of_roughness_are_those_of_the_standard():
+    assert list(ISO_8608) == list("ABCDEFGH")
+    expected = [16, 64, 256, 1024, 4096, 16384, 65536, 262144]
+    np.testing.assert_allclose(list(ISO_8608.values()), np.array(expected) * 1e-6)
+
+
+def test_a_long_table_of_a_rough_road_is_computed_in_parts():
+    x = np.linspace(0, 4, 60001)
+    np.testing.assert_allclose(ROUGH(x)[0][::5000], ROUGH(x[::5000])[0], atol=1e-15)

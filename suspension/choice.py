@@ -1,0 +1,280 @@
+"""Which springs and dampers? What a suspension must do, and the least change that does it.
+
+A change of stiffness and damping is measured by ``sqrt(ln(k / k0)^2 + ln(c / c0)^2)``: half and
+twice are equally far, and stiffness and damping count alike.
+"""
+
+from dataclasses import replace
+from itertools import islice
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize
+
+from suspension import _checks
+from suspension.least_force import margin
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+from suspension.sweep import peaks
+
+__all__ = [
+    "Choice",
+    "Demands",
+    "Exclusion",
+    "cheapest",
+    "demands",
+    "efficient",
+    "exclusion",
+    "fitted_with",
+]
+
+STEPS = 1000  # of a run, in maps
+MAX_MARGINS = 10**4  # exact ones: some ten seconds
+MAX_RUNS = 10**5  # all at once: as long
+STARTS = 2  # points of the grid from which the search begins
+EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
+
+
+class Demands(NamedTuple):
+    """The worst over several speeds, for each suspension of a map, shape (m, n): margin, N,
+    largest acceleration, m/s^2, and largest compression, m."""
+
+    margin: np.ndarray
+    acceleration: np.ndarray
+    compression: np.ndarray
+
+
+class Choice(NamedTuple):
+    """A suspension: `robot` has it; how far it is from the given one, and the least margin, N."""
+
+    robot: Robot
+    distance: float
+    margin: float
+
+
+class Exclusion(NamedTuple):
+    """What speaks against contact at all of several speeds, anywhere in a region.
+
+    Attributes
+    ----------
+    best : float
+        The largest of all worst margins that were computed, N.
+    k, c : float
+        Where, N/m and N s/m.
+    steepness : float
+        To reach zero between the points, the worst margin would have to be at least this many times
+        as steep as the steepest chords between neighbours there.
+    points : int
+        How many were computed.
+    """
+
+    best: float
+    k: float
+    c: float
+    steepness: float
+    points: int
+
+
+def fitted_with(robot, k, c):
+    """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles."""
+    return replace(robot, k1=k, k2=k, c1=c, c2=c)
+
+
+def demands(robot, road, v, k, c):
+    """What suspensions give and ask for, the worst over several speeds: maps for a choice.
+
+    Parameters
+    ----------
+    robot : Robot
+        All but its springs and dampers.
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    v : array_like, shape (speeds,)
+        m/s, > 0.
+    k, c : array_like, shapes (n,) and (m,)
+        Stiffness, N/m, and damping, N s/m, of both axles, > 0 and in order.
+
+    Returns
+    -------
+    Demands
+        From runs of 1000 steps each, all at once (`suspension.sweep.peaks`): sampled, not exact.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or all together are more than 10^5 runs.
+    """
+    _checks.instance("robot", robot, Robot)
+    v, k, c = _grid(v, k, c, MAX_RUNS)
+    robots = np.array(
+        [[fitted_with(robot, stiffness, damping) for stiffness in k] for damping in c]
+    )
+    found = peaks(robots[:, :, None], road, v, steps=STEPS)
+    return Demands(
+        found.force.min(axis=(-2, -1)),
+        found.acceleration.max(axis=-1),
+        found.compression.max(axis=(-2, -1)),
+    )
+
+
+def efficient(costs):
+    """Which of many candidates are best compromises: no other is as good in all and better in one.
+
+    Parameters
+    ----------
+    costs : array_like, shape (n, criteria)
+        Less is better.
+
+    Returns
+    -------
+    efficient : ndarray of bool, shape (n,)
+
+    Examples
+    --------
+    >>> efficient([[1, 3], [2, 2], [3, 1], [3, 3]])
+    array([ True,  True,  True, False])
+    """
+    costs = _checks.array("costs", costs, (None, None))
+    best = np.ones(len(costs), dtype=bool)
+    for i, cost in enumerate(costs):
+        as_good = (costs <= cost).all(axis=1)
+        best[i] = not (as_good & (costs < cost).any(axis=1)).any()
+    return best
+
+
+def cheapest(robot, bump, v, k, c, reserve=0.0):
+    """The least change of stiffness and damping that keeps contact at all of several speeds.
+
+    The suspensions of the grid are tried by exact margins, those near the robot's first. From the
+    first two that keep contact SciPy's SLSQP (Kraft 1988) goes to the nearest point where every
+    margin is at least `reserve`.
+
+    Parameters
+    ----------
+    robot : Robot
+        Both axles alike.
+    bump : GaussianBump
+    v : array_like, shape (speeds,)
+        m/s, > 0.
+    k, c : array_like, shapes (n,) and (m,)
+        Stiffness, N/m, and damping, N s/m, > 0, of the grid, each in order.
+    reserve : float
+        What the margin must be at every speed, N.
+
+    Returns
+    -------
+    Choice or None
+        The robot itself, at distance 0, if it has the reserve already; None if no point of the
+        grid has.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or the axles of the robot differ or have no dampers.
+
+    Examples
+    --------
+    >>> k, c = np.geomspace(150, 1200, 13), np.geomspace(0.4, 4, 9)
+    >>> choice = cheapest(Robot(800, 800), GaussianBump(), [0.25, 1.2, 5, 10], k, c)
+    >>> round(choice.robot.k1, 1), round(choice.robot.c1, 3), round(choice.distance, 3)
+    (277.1, 1.574, 1.061)
+    """
+    start = _own(robot, bump)
+    v, k, c = _grid(v, k, c)
+    reserve = _checks.number("reserve", reserve)
+
+    # The speed with the least margin comes first: most suspensions fail there.
+    v = sorted(v, key=lambda speed: margin(robot, bump, speed))
+
+    def spare(x):
+        changed = fitted_with(robot, *np.exp(x))
+        return np.array([margin(changed, bump, speed) for speed in v]) - reserve
+
+    def keeps(x):
+        changed = fitted_with(robot, *np.exp(x))
+        return all(margin(changed, bump, speed) >= reserve for speed in v)
+
+    if keeps(start):
+        return Choice(robot, 0.0, float(spare(start).min() + reserve))
+    points = np.array([[x, y] for x in np.log(k) for y in np.log(c)])
+    points = points[np.argsort(np.hypot(*(points - start).T))]
+    starts = list(islice(filter(keeps, points), STARTS))
+    if not starts:
+        return None
+    found = [
+        minimize(
+            lambda x: np.sum((x - start) ** 2),
+            first,
+            jac=lambda x: 2 * (x - start),
+            method="SLSQP",
+            bounds=np.log([(k[0], k[-1]), (c[0], c[-1])]),
+            constraints={"type": "ineq", "fun": spare},
+            options={"ftol": 1e-12},
+        ).x
+        for first in starts
+    ]
+    reached = [x for x in found if spare(x).min() >= -EDGE]
+    x = min([*reached, starts[0]], key=lambda x: np.hypot(*(x - start)))
+    least = float(spare(x).min() + reserve)
+    return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
+
+
+def exclusion(robot, bump, v, k, c):
+    """Is contact lost at one of several speeds, at least, whatever the suspension?
+
+    The worst margin is a continuous function of ln k and ln c. Between points of a grid it can
+    reach zero only if it is steep enough; `steepness` compares with the chords that were found.
+
+    Parameters
+    ----------
+    robot, bump, v, k, c
+        As in `cheapest`; the grid has two points and more each way.
+
+    Returns
+    -------
+    Exclusion
+        An argument against contact if `best` is negative and `steepness` well above 1.
+    """
+    _own(robot, bump)
+    v, k, c = _grid(v, k, c)
+    if min(len(k), len(c)) < 2:
+        raise ValueError(f"k and c must have two values and more, got {len(k)} and {len(c)}")
+    worst = np.array(
+        [[min(margin(fitted_with(robot, a, b), bump, u) for u in v) for a in k] for b in c]
+    )
+    x, y = np.log(k), np.log(c)
+    # At each point the steepest chords towards its neighbours, in both directions.
+    across = np.pad(np.abs(np.diff(worst, axis=1) / np.diff(x)), ((0, 0), (1, 1)))
+    up = np.pad(np.abs(np.diff(worst, axis=0) / np.diff(y)[:, None]), ((1, 1), (0, 0)))
+    across, up = np.maximum(across[:, 1:], across[:, :-1]), np.maximum(up[1:], up[:-1])
+    reach = np.hypot(np.diff(x).max(), np.diff(y).max()) / 2  # of a point into its cells
+    with np.errstate(divide="ignore", invalid="ignore"):
+        steepness = np.nanmin(-worst / reach / np.hypot(across, up))
+    i, j = np.unravel_index(worst.argmax(), worst.shape)
+    return Exclusion(float(worst[i, j]), float(k[j]), float(c[i]), float(steepness), worst.size)
+
+
+def _own(robot, bump):
+    """ln k and ln c of a robot whose axles are alike."""
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
+    if robot.k1 != robot.k2 or robot.c1 != robot.c2 or robot.c1 == 0:
+        raise ValueError(
+            "robot must have k1 = k2 and c1 = c2 > 0, got "
+            f"k1={robot.k1:g}, k2={robot.k2:g}, c1={robot.c1:g}, c2={robot.c2:g}"
+        )
+    return np.log([robot.k1, robot.c1])
+
+
+def _grid(v, k, c, most=MAX_MARGINS):
+    """Speeds, stiffnesses and dampings as arrays, not too many together."""
+    v, k, c = (_checks.array(*pair, (None,)) for pair in (("v", v), ("k", k), ("c", c)))
+    for name, values in (("v", v), ("k", k), ("c", c)):
+        if not (values.size and (values > 0).all()):
+            raise ValueError(f"{name} must hold one number or more, all > 0, got {values}")
+        if name != "v" and not (np.diff(values) > 0).all():
+            raise ValueError(f"{name} must be in order, got {values}")
+    cost = v.size * k.size * c.size
+    if cost > most:
+        raise ValueError(f"k, c and v must ask for at most {most} runs, got {cost}")
+    return v, k, c

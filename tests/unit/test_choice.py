@@ -1,0 +1,96 @@
+"""What a suspension must do, and the least change that does it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from suspension.choice import cheapest, demands, efficient, exclusion, fitted_with
+from suspension.exact import Crossing, over_bump
+from suspension.least_force import COURSE, exact_forces, margin
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+
+ROBOT, BUMP = Robot(800, 800), GaussianBump()
+ASKED = (0.25, 1.2, 5, 10)
+K, C = np.geomspace(150, 1200, 9), np.geomspace(0.4, 4, 7)
+
+
+def test_demands_are_the_worst_of_exact_crossings():
+    k, c, v = [300, 900], [0.5, 2, 5], [0.8, 3]
+    found = demands(ROBOT, BUMP, v, k, c)
+    for i, j in np.ndindex(3, 2):
+        robot = fitted_with(ROBOT, k[j], c[i])
+        least, largest, deepest = np.inf, 0, 0
+        for speed in v:
+            t = np.linspace(0, COURSE / speed, 20001)
+            N = exact_forces(Crossing(robot, BUMP, speed), t)[0]
+            W = over_bump(robot, BUMP, speed, t)
+            x = np.add.outer(robot.arms, speed * t)
+            compression = BUMP(x)[0] - W[0] - robot.arms[:, None] * W[2]
+            least = min(least, N.min())
+            largest = max(largest, np.abs(N.sum(axis=0) / robot.m - robot.g).max())
+            deepest = max(deepest, compression.max())
+        np.testing.assert_allclose(found.margin[i, j], least, atol=0.05)
+        np.testing.assert_allclose(found.acceleration[i, j], largest, rtol=0.01)
+        np.testing.assert_allclose(found.compression[i, j], deepest, rtol=0.01)
+
+
+def test_best_compromises_are_those_that_nothing_beats():
+    costs = np.random.default_rng(1).uniform(size=(60, 3))
+    best = efficient(costs)
+    assert 1 < best.sum() < 60
+    for i in range(60):
+        beaten = any(
+            (costs[j] <= costs[i]).all() and (costs[j] < costs[i]).any() for j in range(60)
+        )
+        assert best[i] != beaten
+    assert efficient([[1, 1], [1, 1]]).all()
+
+
+@pytest.mark.parametrize("reserve", [0, 0.7])
+def test_the_cheapest_change_reaches_what_is_asked_and_no_smaller_one_does(reserve):
+    choice = cheapest(ROBOT, BUMP, ASKED, K, C, reserve)
+    margins = [margin(choice.robot, BUMP, v) for v in ASKED]
+    np.testing.assert_allclose(min(margins), reserve, atol=1e-5)
+    np.testing.assert_allclose(choice.margin, min(margins), atol=1e-12)
+    way = np.log([choice.robot.k1 / ROBOT.k1, choice.robot.c1 / ROBOT.c1])
+    np.testing.assert_allclose(np.hypot(*way), choice.distance)
+    for angle in np.linspace(0, 2 * np.pi, 60):
+        point = np.exp(0.98 * choice.distance * np.array([np.cos(angle), np.sin(angle)]))
+        other = fitted_with(ROBOT, ROBOT.k1 * point[0], ROBOT.c1 * point[1])
+        assert min(margin(other, BUMP, v) for v in ASKED) < reserve
+
+
+def test_who_has_it_already_changes_nothing():
+    soft = Robot(250, 250)
+    choice = cheapest(soft, BUMP, ASKED, K, C)
+    assert choice.robot is soft and choice.distance == 0 and choice.margin > 0.5
+
+
+def test_where_nothing_keeps_contact_there_is_no_choice():
+    assert cheapest(ROBOT, BUMP, ASKED, K[-3:], C) is None
+
+
+def test_a_region_without_contact_is_told_from_one_with_it():
+    without = exclusion(ROBOT, BUMP, [1.2], np.geomspace(500, 1200, 9), np.geomspace(1, 2, 7))
+    assert without.best < -5 and without.steepness > 2 and without.points == 63
+    with_it = exclusion(ROBOT, BUMP, [1.2], K, C)
+    assert with_it.best > 0 and with_it.steepness < 0
+    other = fitted_with(ROBOT, with_it.k, with_it.c)
+    np.testing.assert_allclose(margin(other, BUMP, 1.2), with_it.best)
+
+
+def test_a_finer_grid_excludes_more_surely():
+    coarse, fine = (
+        exclusion(ROBOT, BUMP, [1.2], np.geomspace(500, 1200, n), np.geomspace(1, 2, n))
+        for n in (4, 8)
+    )
+    assert fine.steepness > coarse.steepness > 0
+
+
+@pytest.mark.parametrize("other", [{"k2": 700}, {"c1": 0, "c2": 0}, {"c2": 2}])
+def test_axles_must_be_alike_and_damped(other):
+    for function in (cheapest, exclusion):
+        with pytest.raises(ValueError, match="robot must have"):
+            function(replace(ROBOT, **other), BUMP, ASKED, K, C)
