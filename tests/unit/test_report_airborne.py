@@ -136,6 +136,6 @@ def test_without_a_landing_there_is_no_order():
 
 
 def test_the_state_diagram_has_words_for_all_it_shows():
-    text, alt = part.modes_caption()
+    text, alt = part.contact_states_caption()
     assert not faults(text) and not faults(alt)
-    assert "four boxes" in alt and r"p_i^\circ" in text
+    assert "four contact states" in text and "four boxes" in alt and r"p_i^\circ" in text

@@ -122,10 +122,22 @@ def test_the_damper_is_blamed_only_where_the_spring_still_pushes():
         ([(0.1, 30)], "at every speed from 0.1 to 30 m/s"),
         ([(0.38, 0.436), (0.72, 30)], "from 0.380 to 0.436 m/s and above 0.720 m/s"),
         ([(0.1, 0.5)], "below 0.500 m/s"),
+        ([(0.381, 0.407), (0.410, 0.436)], "from 0.381 to 0.436 m/s"),
+        ([(0.381, 0.407), (0.412, 0.436)], "from 0.381 to 0.407 m/s and from 0.412 to 0.436 m/s"),
+        ([(0.05, 0.08), (0.5, 0.6)], "from 0.500 to 0.600 m/s"),
     ],
 )
 def test_where_the_spring_goes_too_far(beyond, words):
     assert plain(part.beyond_words(0.1, 30, beyond)) == words
+
+
+def test_ranges_told_as_one_have_the_larger_excess_of_the_two():
+    beyond = [(0.381, 0.407), (0.410, 0.436), (0.72, 30)]
+    words = "0.381 to 0.436 m/s (by up to 9.6 %) and above 0.720 m/s (up to 2.1 times as far)"
+    for most in ([1.096, 1.02, 2.14], [1.02, 1.096, 2.14]):
+        text = plain(part.beyond_words(0.1, 30, beyond, most))
+        assert text == f"from {words}"
+        assert f"{words} it is compressed" in plain(part.verdict([0.1, 30], [0], beyond, most))
 
 
 def test_a_spring_too_weak_to_carry_the_robot_is_called_so():
