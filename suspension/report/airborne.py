@@ -3,6 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
+from suspension.least_force import COURSE
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -60,9 +61,12 @@ def flight_table(flights, robot):
     robot : Robot
     """
     flights = list(flights)
+    duration = flights[0].T[-1]
+    ways = join(f"{flight.v * duration:.3g}" for flight in flights)
     note = (
-        f"Counted over {quantity(flights[0].T[-1], 's')}. A run has settled when both forces stay "
-        f"within 5{SPACE}% of those at rest."
+        f"Counted over {quantity(duration, 's')}, a way of {ways}{SPACE}m; the asked runs end at "
+        f"{COURSE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those at "
+        "rest."
     )
     return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 

@@ -9,7 +9,7 @@ shape (m, 2). Words tell ranges of it that nearly touch, to a hundredth, as one.
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.report.data import existence
+from suspension.report.data import existence, speed_digits
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -38,6 +38,7 @@ __all__ = [
     "lesson",
     "map_caption",
     "margin_caption",
+    "other_readings",
     "sensitivity_caption",
     "strongest",
     "travel_caption",
@@ -192,7 +193,7 @@ def margin_caption(edges, lost, beyond, asked=()):
     critical = edges[1:-1]
     text = "The exact least force of each wheel against speed."
     if any(lost):
-        text += " Where either is negative (shaded) a wheel leaves the ground."
+        text += " Where either is negative (marked *lost*) a wheel leaves the ground."
     if len(critical):
         text += " Diamonds: the critical speeds."
     if len(asked):
@@ -321,6 +322,36 @@ def _critical_row(critical):
         "relative half-width": percent((high - low) / 2 / speed) if known else "–",
         "note": existence(critical) or "–",
     }
+
+
+def other_readings(by_stiffness):
+    """What becomes of each critical speed of the asked stiffness by the other readings of the data.
+
+    Parameters
+    ----------
+    by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
+        From `suspension.uncertainty.critical_speeds_by_stiffness`, the asked stiffness first.
+    """
+    found = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
+    asked, *others = found
+    names = join([f"the {stiffness.name}" for stiffness, _ in by_stiffness[1:]], "or")
+    if len({len(speeds) for speeds in found}) > 1:
+        return "The readings do not even agree on how many critical speeds there are."
+    if not asked:
+        return "By none of the readings is there a critical speed in the range."
+    words, outside = [], []
+    for own, *moved in zip(asked, *others):
+        digits = speed_digits(own.low, own.high)
+        name = number(own.speed, digits)
+        words.append(f"{name} becomes {join([number(c.speed, digits) for c in moved], 'or')}")
+        if not all(own.low <= c.speed <= own.high for c in moved):
+            outside.append(name)
+    where = "each of them inside the interval that belongs to the asked stiffness"
+    if outside:
+        where = (
+            f"and what {join(outside)} becomes is **outside** the interval of the asked stiffness"
+        )
+    return f"By {names}, {join(words)}{SPACE}m/s, {where}."
 
 
 def confidence_table(margins, ratios, flips, lose):

@@ -102,6 +102,7 @@ def test_one_verdict_for_all_speeds():
     assert "No sign" not in plain(part.lesson([False], []))
     assert part.balance_table([], []).startswith("There is no critical speed")
     assert part.strongest([], {"$k$": []})
+    assert "$k$ at 7.85 m/s (1.38 % per 1 %)" in plain(part.strongest([7.85], {"$k$": [1.38]}))
     assert not faults(part.sensitivity_caption([]).text)
 
 
@@ -163,6 +164,24 @@ def test_a_critical_speed_that_ends_is_told_so():
     assert "no confidence level" in plain(table)
     assert not faults(table)
     assert "no critical speed" in plain(part.critical_table([]))
+
+
+def by_stiffness(*speeds):
+    """As if each of the readings of some data had these critical speeds, m/s."""
+    stiffnesses = fitted(793).stiffnesses(7.14)
+    known = [[CriticalSpeed(v, 0.97 * v, 1.03 * v, None, None) for v in each] for each in speeds]
+    return list(zip(stiffnesses, known, strict=True))
+
+
+def test_what_the_other_readings_make_of_the_critical_speeds():
+    text = plain(part.other_readings(by_stiffness([0.436, 7.85], [0.437, 7.94], [0.437, 8.00])))
+    assert "By the line through the origin or the tangent at the static load, 0.436 becomes" in text
+    assert "7.85 becomes 7.94 or 8.00 m/s, each of them inside" in text and not faults(text)
+    text = plain(part.other_readings(by_stiffness([0.436, 7.85], [0.437, 7.94], [0.437, 9])))
+    assert "what 7.85 becomes is **outside**" in text and "each" not in text and not faults(text)
+    pair = part.other_readings(by_stiffness([0.436, 7.85], [0.437], [0.437, 8.00]))
+    assert "do not even agree" in pair
+    assert "By none of the readings" in part.other_readings(by_stiffness([], [], []))
 
 
 def test_what_rests_on_a_spring_beyond_its_range_is_marked():
