@@ -5,6 +5,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
+from suspension.figures.layout import narrow
 from suspension.report import table
 from suspension.report.words import number, quantity
 
@@ -34,6 +35,7 @@ def write(results):
     for name, draw in (("speed-work", _draw_work), ("speed-steps", _draw_steps)):
         figure = draw(results)
         figure.savefig(FIGURES / f"{name}.svg", metadata={"Date": None})
+        narrow(figure).savefig(FIGURES / f"{name}.narrow.svg", metadata={"Date": None})
         plt.close(figure)
     return re.sub(r"<!-- .* -->\n*", "", text)
 
@@ -49,7 +51,7 @@ def _ratio(x):
 
 
 def _error(x):
-    return number(x, 2) if x else "–"  # the reference itself
+    return number(x, 2) if x else "reference"
 
 
 def _name(name):
@@ -87,7 +89,7 @@ def _work_b(work):
     for name, times in seconds.items():
         row = {"ns per step": _name(name)}
         for J in seconds["simulate"]:
-            row[f"{int(J):,} steps"] = f"{1e9 * times[J] / int(J):.0f}" if J in times else "–"
+            row[f"{int(J):,} steps"] = f"{1e9 * times[J] / int(J):,.0f}" if J in times else "–"
         rows.append(row)
     return (
         f"{table(rows)}\n\nAt its peak `simulate` holds {work['memory']:.2f} times the memory of "
@@ -110,7 +112,7 @@ def _work_d(rows):
             {
                 "what computes it": _name(row["name"]),
                 "with": re.sub(r"1e-0?(\d+)", r"$10^{-\1}$", row["setting"]),
-                "time": _time(row["seconds"]) if row["seconds"] else "– (not reached)",
+                "time": _time(row["seconds"]) if row["seconds"] else "not reached",
                 "error (N)": _error(row["error"]),
             }
             for row in sorted(rows, key=lambda row: row["seconds"] or float("inf"))
@@ -150,7 +152,8 @@ def _book(book):
         "`make test`, which builds it too": book["tests"],
     }
     rows = [{"what is waited for": what, "time": _time(s)} for what, s in waited.items()]
-    explorer = ["The explorer in headless Chromium:", "", "```text", *book["explorer"], "```"]
+    lines = [line.replace("<=", "≤") for line in book["explorer"]]
+    explorer = ["The explorer in headless Chromium:", "", "```text", *lines, "```"]
     return "\n".join([table(rows), "", *explorer])
 
 
@@ -172,7 +175,7 @@ def _draw_work(results):
 def _draw_steps(results):
     figure, ax = plt.subplots()
     styles = zip(("o-", "s--", "^-.", "v:"), ("C0", "C1", "C2", "C6"))
-    place = {"simulate": 7, "Numba, the recurrence": -7}  # they end close to each other
+    below = {"Numba, the recurrence", "textbook RK4"}
     for (name, times), (style, color) in zip(results["b"]["seconds"].items(), styles):
         steps = [int(J) for J in times]
         ns = [1e9 * times[str(J)] / J for J in steps]
@@ -180,11 +183,13 @@ def _draw_steps(results):
         ax.annotate(
             name,
             (steps[-1], ns[-1]),
-            xytext=(8, place.get(name, 0)),
+            xytext=(4, -14 if name in below else 14),
+            ha="right",
             va="center",
             textcoords="offset points",
             color=color,
         )
-    ax.set(xscale="log", yscale="log", xlim=(70, 6e7), xlabel="steps", ylabel="time per step (ns)")
+    ax.set(xscale="log", yscale="log", xlim=(70, 2e6), xlabel="steps", ylabel="time per step (ns)")
+    ax.set(ylim=(20, None))
     ax.minorticks_off()
     return figure

@@ -22,7 +22,7 @@ from suspension.figures.regression import (
     plot_fit,
     plot_residuals,
 )
-from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_modes
+from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
@@ -33,6 +33,7 @@ __all__ = [
     "film",
     "plot_all_forces",
     "plot_confidence_region",
+    "plot_contact_states",
     "plot_demand_map",
     "plot_errors",
     "plot_experiments",
@@ -47,7 +48,6 @@ __all__ = [
     "plot_margin_map",
     "plot_margins",
     "plot_missed_dip",
-    "plot_modes",
     "plot_near_zero",
     "plot_pitch",
     "plot_residuals",

@@ -7,10 +7,11 @@ from matplotlib.animation import FuncAnimation
 from suspension import _checks
 from suspension.course import Hgauss, the_robot
 from suspension.figures.style import COLOURS
+from suspension.forces import WHEEL
 from suspension.road import profile
 from suspension.robot import Robot
 
-__all__ = ["RobotDrawing", "animate_robot", "film", "plot_modes"]
+__all__ = ["RobotDrawing", "animate_robot", "film", "plot_contact_states"]
 
 
 class RobotDrawing:
@@ -133,13 +134,13 @@ def film(history, robot, road, times):
     return figure
 
 
-MODES = {  # centre of each box, and what holds in it
+STATES = {  # centre of each box, and what holds in it
     "both press": ((0.5, 0.87), "$N_1 = f_1,\\quad N_2 = f_2$"),
-    "rear wheel in the air": ((0.17, 0.5), "$N_1 = 0,\\quad N_2 = f_2$"),
-    "front wheel in the air": ((0.83, 0.5), "$N_1 = f_1,\\quad N_2 = 0$"),
+    "rear wheel in the air": ((0.23, 0.5), "$N_1 = 0,\\quad N_2 = f_2$"),
+    "front wheel in the air": ((0.77, 0.5), "$N_1 = f_1,\\quad N_2 = 0$"),
     "both in the air": ((0.5, 0.13), "$N_1 = 0,\\quad N_2 = 0$"),
 }
-SWITCHES = (  # of a wheel, with the mode in which it presses first
+SWITCHES = (  # of a wheel, with the state in which it presses first
     (1, "both press", "rear wheel in the air"),
     (2, "both press", "front wheel in the air"),
     (2, "rear wheel in the air", "both in the air"),
@@ -147,36 +148,32 @@ SWITCHES = (  # of a wheel, with the mode in which it presses first
 )
 
 
-def plot_modes(ax=None):
-    """The robot as a hybrid system: its four modes, and what leads from one to another.
+def plot_contact_states(ax=None):
+    """The robot as a hybrid system: its four contact states, and what leads from one to another.
 
     In the notation of `suspension.flight`: ``f`` is Eq. 5, ``p`` the compression of a spring over a
     wheel on the ground, ``p°`` that over the free wheel.
     """
-    ax = plt.subplots(figsize=(6.6, 4.8))[1] if ax is None else ax
+    ax = plt.subplots(figsize=(6.6, 4.2))[1] if ax is None else ax
     ax.set(xlim=(0, 1), ylim=(0, 1))
     ax.axis("off")
-    middle = {"ha": "center", "va": "center", "linespacing": 1.7, "size": 11.5}
-    box = {"boxstyle": "round,pad=0.5", "fc": "0.96", "ec": "0.3", "lw": 1.2}
-    for name, ((x, y), forces) in MODES.items():
+    middle = {"ha": "center", "va": "center", "linespacing": 1.7, "size": 11}
+    box = {"boxstyle": "round,pad=0.4", "fc": "0.96", "ec": "0.3", "lw": 1.2}
+    for name, ((x, y), forces) in STATES.items():
         ax.text(x, y, f"{name}\n{forces}", bbox=box, **middle)
-    always = ("always  $\\dot w = S w + P N + e$", "switches leave $w$ as it is")
-    ax.text(0.5, 0.5, "\n".join(always), **middle)
     for wheel, pressing, free in SWITCHES:
-        start, end = np.array(MODES[pressing][0]), np.array(MODES[free][0])
-        colour = COLOURS[wheel - 1]
-        arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
-        beside = np.array([0.02 * np.sign(end[0] - start[0]), 0.0])  # of there and back
-        for a, b, shift in ((start, end, beside), (end, start, -beside)):
-            tail, head = a + 0.26 * (b - a) + shift, a + 0.74 * (b - a) + shift
-            ax.annotate("", head, tail, arrowprops=arrow)
-        x, y = (start + end) / 2
-        edge, align = (0.02, "left") if x < 0.5 else (0.98, "right")
-        rules = (
-            f"lift-off: $f_{wheel}$ falls to 0,\nset $p_{wheel}^\\circ$",
-            f"landing: $p_{wheel} \\geq p_{wheel}^\\circ$, $f_{wheel} > 0$",
-        )
-        style = {"ha": align, "va": "center", "color": colour, "linespacing": 1.6, "size": 11.5}
-        outward = 0.13 * np.sign(y - 0.5)
-        ax.text(edge, y + outward, "\n".join(rules), **style)
+        start, end = np.array(STATES[pressing][0]), np.array(STATES[free][0])
+        beside = np.array([0.03 * np.sign(end[0] - start[0]), 0.0])  # of there and back
+        for a, b, shift, line in ((start, end, beside, "-"), (end, start, -beside, ":")):
+            tail, head = a + 0.31 * (b - a) + shift, a + 0.69 * (b - a) + shift
+            arrow = {"arrowstyle": "-|>", "color": COLOURS[wheel - 1], "lw": 1.6, "ls": line}
+            ax.annotate("", head, tail, arrowprops=arrow | {"shrinkA": 0, "shrinkB": 0})
+    for i, colour in enumerate(COLOURS, start=1):
+        off = f"{WHEEL[i]} lifts off: $f_{i}$ falls to 0, set $p_{i}^\\circ$"
+        on = f"{WHEEL[i]} lands: $p_{i} \\geq p_{i}^\\circ$, $f_{i} > 0$"
+        ax.plot([], [], "-", color=colour, label=off)
+        ax.plot([], [], ":", color=colour, label=on)
+    always = "always $\\dot w = S w + P N + e$; a switch leaves $w$ as it is"
+    place = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0)}
+    ax.legend(**place, ncols=2, title=always, fontsize=10, title_fontsize=10)
     return ax

@@ -3,6 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
+from suspension.least_force import COURSE
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -17,12 +18,12 @@ from suspension.report.words import (
 )
 
 __all__ = [
+    "contact_states_caption",
     "film_caption",
     "first_flights",
     "flight_caption",
     "flight_table",
     "models",
-    "modes_caption",
     "order_caption",
     "order_sentence",
     "tilt",
@@ -32,11 +33,12 @@ __all__ = [
 NO_JUMP = 1e-3  # N; a force that returns with less comes back smoothly
 
 
-def modes_caption():
+def contact_states_caption():
     """Caption of the state diagram."""
     text = (
-        "The robot as a hybrid system. Boxes: the four modes, and the forces in each. Arrows: the "
-        "switches of a wheel (blue: rear, orange: front), away from the ground and back to it. "
+        "The robot as a hybrid system. Boxes: the four contact states, and the forces in each. "
+        "Arrows: the switches of a wheel (blue: rear, orange: front), away from the ground "
+        "(full) and back to it (dotted). "
         r"$f_i$ is Eq. 5, $p_i$ the compression that a wheel on the ground would give its spring, "
         r"$p_i^\circ$ the one above the free wheel: 0 if it follows; if it relaxes, $p_i$ at "
         "lift-off, and falling from there."
@@ -59,9 +61,12 @@ def flight_table(flights, robot):
     robot : Robot
     """
     flights = list(flights)
+    duration = flights[0].T[-1]
+    ways = join(f"{flight.v * duration:.3g}" for flight in flights)
     note = (
-        f"Counted over {quantity(flights[0].T[-1], 's')}. A run has settled when both forces stay "
-        f"within 5{SPACE}% of those at rest."
+        f"Counted over {quantity(duration, 's')}, a way of {ways}{SPACE}m; the asked runs end at "
+        f"{COURSE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those at "
+        "rest."
     )
     return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 

@@ -22,6 +22,7 @@ __all__ = [
     "made_sentence",
     "read_sentence",
     "source_sentence",
+    "speed_digits",
     "stiffness_rows",
     "stiffness_sentence",
     "synthetic_note",
@@ -287,7 +288,7 @@ def consequence_rows(by_stiffness):
 
 def _consequence(name, critical):
     low, high = critical.low, critical.high
-    digits = _speed_digits(low, high)
+    digits = speed_digits(low, high)
     at_estimate = "–" if critical.speed is None else number(critical.speed, digits)
     ends = f"{number(low, digits)} to {number(high, digits)}"
     return _row(name, at_estimate, ends, existence(critical) or "–")
@@ -302,7 +303,7 @@ def _row(name, speed, ends, note):
     }
 
 
-def _speed_digits(low, high):
+def speed_digits(low, high):
     """Three digits, or more where they are needed to tell the two ends apart, six at most."""
     for digits in (3, 4, 5):
         if high - low > 5 * 10.0 ** (np.floor(np.log10(high)) + 1 - digits):

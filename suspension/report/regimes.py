@@ -3,13 +3,13 @@
 In all of them `edges` are the critical speeds between the ends of the range looked at, m/s, shape
 (n + 1,), `lost` says for each of the n ranges between them whether contact is lost, and `beyond`
 holds the ranges of speed in which a spring is compressed further than it was measured, m/s,
-shape (m, 2).
+shape (m, 2). Words tell ranges of it that nearly touch, to a hundredth, as one.
 """
 
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.report.data import existence
+from suspension.report.data import existence, speed_digits
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -38,6 +38,7 @@ __all__ = [
     "lesson",
     "map_caption",
     "margin_caption",
+    "other_readings",
     "sensitivity_caption",
     "strongest",
     "travel_caption",
@@ -45,6 +46,7 @@ __all__ = [
 ]
 
 WIDE = 1.1  # a range of speeds from v to 1.1 v can be driven in; a narrower one is a curiosity
+APART = 1.01  # two ranges, one to v, the other from 1.01 v on, are told as two
 
 
 def landing_opening(lost):
@@ -67,8 +69,14 @@ def landing_data(note):
     return note or "The spring is one that was measured, not the synthetic one of this project."
 
 
-def verdict(edges, lost, beyond=()):
-    """Where contact is kept and lost, and where going faster is safer."""
+def verdict(edges, lost, beyond=(), most=None):
+    """Where contact is kept and lost, and where going faster is safer.
+
+    Parameters
+    ----------
+    most : sequence of float, length m, optional
+        The largest compression in each range of `beyond`, over that at which it was measured.
+    """
     words = [f"Contact is {_ranges(edges, lost)}."]
     names = _names(edges)
     wide = [edges[i + 1] > WIDE * edges[i] for i in range(len(lost))]
@@ -82,7 +90,7 @@ def verdict(edges, lost, beyond=()):
                 f"From {names[i]} to {names[i + 1]}{SPACE}m/s it is kept by a hair, in a range too "
                 "narrow to drive in."
             )
-    where = beyond_words(edges[0], edges[-1], beyond)
+    where = beyond_words(edges[0], edges[-1], beyond, most)
     if where:
         words.append(
             f"All this holds **if the spring stays linear**: {where} it is compressed further "
@@ -142,20 +150,42 @@ def _ranges(edges, lost):
     return join(words)
 
 
-def beyond_words(low, high, beyond):
-    """Where in [low, high], m/s, a spring is compressed further than measured, or ""."""
-    beyond = [(a, b) for a, b in beyond if b > low and a < high]
-    words = []
-    for a, b in beyond:
-        if a <= low and b >= high:
-            return f"at every speed from {low:g} to {high:g}{SPACE}m/s"
-        if a <= low:
-            words.append(f"below {number(b)}{SPACE}m/s")
-        elif b >= high:
-            words.append(f"above {number(a)}{SPACE}m/s")
+def beyond_words(low, high, beyond, most=None):
+    """Where in [low, high], m/s, a spring is compressed further than measured, or "".
+
+    With `most`, as in `verdict`, also by how much.
+    """
+    most = [None] * len(beyond) if most is None else most
+    told = []
+    for (a, b), size in zip(beyond, most, strict=True):
+        if b <= low or a >= high:
+            continue
+        if told and a < APART * told[-1][1]:
+            start, _, before = told.pop()
+            told.append((start, b, size and max(before, size)))
         else:
-            words.append(f"from {number(a)} to {number(b)}{SPACE}m/s")
-    return join(words, none="")
+            told.append((a, b, size))
+    return join([_where(low, high, a, b) + _further(size) for a, b, size in told], none="")
+
+
+def _where(low, high, a, b):
+    """The part of [low, high] that lies between a and b, in words."""
+    if a <= low and b >= high:
+        return f"at every speed from {low:g} to {high:g}{SPACE}m/s"
+    if a <= low:
+        return f"below {number(b)}{SPACE}m/s"
+    if b >= high:
+        return f"above {number(a)}{SPACE}m/s"
+    return f"from {number(a)} to {number(b)}{SPACE}m/s"
+
+
+def _further(size):
+    """By how much a compression exceeds the measured ones, from their ratio."""
+    if size is None:
+        return ""
+    if size < 1.5:
+        return f" (by up to {percent(size - 1)})"
+    return f" (up to {number(size, 2)} times as far)"
 
 
 def margin_caption(edges, lost, beyond, asked=()):
@@ -163,7 +193,7 @@ def margin_caption(edges, lost, beyond, asked=()):
     critical = edges[1:-1]
     text = "The exact least force of each wheel against speed."
     if any(lost):
-        text += " Where either is negative (shaded) a wheel leaves the ground."
+        text += " Where either is negative (marked *lost*) a wheel leaves the ground."
     if len(critical):
         text += " Diamonds: the critical speeds."
     if len(asked):
@@ -294,6 +324,36 @@ def _critical_row(critical):
     }
 
 
+def other_readings(by_stiffness):
+    """What becomes of each critical speed of the asked stiffness by the other readings of the data.
+
+    Parameters
+    ----------
+    by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
+        From `suspension.uncertainty.critical_speeds_by_stiffness`, the asked stiffness first.
+    """
+    found = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
+    asked, *others = found
+    names = join([f"the {stiffness.name}" for stiffness, _ in by_stiffness[1:]], "or")
+    if len({len(speeds) for speeds in found}) > 1:
+        return "The readings do not even agree on how many critical speeds there are."
+    if not asked:
+        return "By none of the readings is there a critical speed in the range."
+    words, outside = [], []
+    for own, *moved in zip(asked, *others):
+        digits = speed_digits(own.low, own.high)
+        name = number(own.speed, digits)
+        words.append(f"{name} becomes {join([number(c.speed, digits) for c in moved], 'or')}")
+        if not all(own.low <= c.speed <= own.high for c in moved):
+            outside.append(name)
+    where = "each of them inside the interval that belongs to the asked stiffness"
+    if outside:
+        where = (
+            f"and what {join(outside)} becomes is **outside** the interval of the asked stiffness"
+        )
+    return f"By {names}, {join(words)}{SPACE}m/s, {where}."
+
+
 def confidence_table(margins, ratios, flips, lose):
     """For each asked speed: margin, use of the spring, where the verdict flips, confidence.
 
@@ -400,7 +460,7 @@ def strongest(critical, percent):
     names = _names(critical)
     which = "The critical speed answers" if len(critical) == 1 else "The critical speeds answer"
     words = join(
-        f"{name} at {v}{SPACE}m/s (by {fixed(percent[name][i], 2)}{SPACE}% for one)"
+        f"{name} at {v}{SPACE}m/s ({fixed(percent[name][i], 2)}{SPACE}% per 1{SPACE}%)"
         for i, (v, name) in enumerate(zip(names, most))
     )
     return f"{which} most strongly to {words}."

@@ -11,6 +11,7 @@ __all__ = [
     "coarse_mode",
     "convergence_caption",
     "dip_caption",
+    "half_turn",
     "heave_caption",
     "missed_table",
     "observed_orders",
@@ -205,6 +206,25 @@ def _half_a_turn(seen, dts):
         np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1])
         if after
         else None
+    )
+
+
+def half_turn(seen, dts, true):
+    """Where RK4 turns a mode over in every step, with its damping and without.
+
+    Parameters
+    ----------
+    seen, dts, true
+        As in `figures.plot_seen_mode`, of RK4 alone.
+    """
+    dt = _half_a_turn(seen, dts)
+    if dt is None:
+        return "In [the figure](#fig-damping) RK4 does not reach that line."
+    undamped = np.sqrt(6) / true.imag
+    return (
+        f"For the fastest mode $\\sqrt6/\\omega$ is {number(1000 * undamped)}{SPACE}ms; in [the "
+        f"figure](#fig-damping), where it is damped, RK4 crosses the line at "
+        f"{number(1000 * dt)}{SPACE}ms."
     )
 
 

@@ -107,9 +107,17 @@ def test_figures_follow_the_theme_and_the_width(book, page):
         assert set(re.findall(r'(?:href="|url\()#([\w.-]+)', markup)) <= shapes
         assert not figure.select("[id]"), "two figures may have the same ids"
     wide, narrow = (soup.select(f"figure .figure-svg.{name}") for name in ("if-wide", "if-narrow"))
-    assert len(wide) == len(narrow)
+    assert len(wide) == len(narrow) == len(figures) / 2, "every figure is laid out for a phone"
     for figure in narrow:
         assert int(figure["width"]) <= 400
+
+
+def test_references_are_in_alphabetical_order_and_labelled_by_author_and_year(book):
+    found = parse(book / "book/references.html").select("div.citation > .label")
+    labels = [label.get_text(strip=True).strip("[]") for label in found]
+    assert len(labels) > 30 and all(re.search(r"\w, \d{4}$", label) for label in labels)
+    authors = [re.split(" and |, | et al", label)[0].casefold() for label in labels]
+    assert authors == sorted(authors)
 
 
 def test_the_landing_page_shows_a_figure(book):

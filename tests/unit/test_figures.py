@@ -147,7 +147,7 @@ def assert_labelled(ax):
 
 def test_every_figure_is_tested_here():
     there = {name for name in suspension.figures.__all__ if name.startswith("plot_")}
-    on_their_own = {"plot_all_forces", "plot_modes", "plot_near_zero", "plot_seen_mode"}
+    on_their_own = {"plot_all_forces", "plot_contact_states", "plot_near_zero", "plot_seen_mode"}
     assert there == {*ON_ONE, *ON_TWO, *on_their_own}
 
 

@@ -11,7 +11,9 @@ from PIL import Image, ImageChops, ImageSequence
 
 from suspension.animation import animate_robot
 from suspension.course import the_robot
-from suspension.figures.robot import RobotDrawing, plot_modes
+from suspension.figures.layout import narrow
+from suspension.figures.robot import RobotDrawing, plot_contact_states
+from suspension.figures.style import COLOURS
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
@@ -130,9 +132,9 @@ def test_a_bad_argument_is_refused_by_name(name, value):
         animate_robot(**arguments)
 
 
-def test_the_modes_are_the_four_states_of_two_wheels_with_arrows_both_ways():
+def test_there_are_four_states_of_two_wheels_with_arrows_both_ways():
     ax = plt.subplots()[1]
-    assert plot_modes(ax) is ax and len(plt.get_fignums()) == 1
+    assert plot_contact_states(ax) is ax and len(plt.get_fignums()) == 1
     words = [text.get_text() for text in ax.texts]
     forces = {
         tuple(f"$N_{i} = 0" in text or f"quad N_{i} = 0" in text for i in (1, 2))
@@ -144,17 +146,29 @@ def test_the_modes_are_the_four_states_of_two_wheels_with_arrows_both_ways():
     ways = [(*np.sign(np.subtract(a.xy, a.xyann)), a.arrow_patch.get_ec()) for a in arrows]
     assert len(ways) == 8  # each wheel switches off and on, in two places
     assert [ways.count(way) for way in set(ways)] == [2, 2, 2, 2]
-    for wheel in (1, 2):
-        rules = [text for text in words if f"f_{wheel}$ falls to 0" in text]
-        assert len(rules) == 2 and all(rf"p_{wheel} \geq p_{wheel}^" in text for text in rules)
+    rules = {line.get_label(): line for line in ax.get_lines()}
+    for wheel, name in ((1, "rear"), (2, "front")):
+        (off,) = (rules[text] for text in rules if f"{name} lifts off: $f_{wheel}$ falls" in text)
+        (on,) = (
+            rules[text] for text in rules if rf"{name} lands: $p_{wheel} \geq p_{wheel}^" in text
+        )
+        assert off.get_color() == on.get_color() == COLOURS[wheel - 1]
+        assert off.get_ls() != on.get_ls()
 
 
-def test_no_word_of_the_modes_is_cut_off_or_covered():
+@pytest.mark.parametrize("layout", [lambda figure: figure, narrow])
+def test_no_word_of_the_states_is_cut_off_or_covered(layout):
     with plt.style.context("suspension.figures.report"):
-        ax = plot_modes()
-        ax.figure.canvas.draw()
-        boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+        ax = plot_contact_states()
+        layout(ax.figure).canvas.draw()
+    words = [text for text in ax.texts if text.get_text()]
+    (legend,) = [*ax.figure.legends, *filter(None, [ax.get_legend()])]
+    boxes = [text.get_bbox_patch().get_window_extent() for text in words]
+    boxes.append(legend.get_window_extent())
+    arrows = [text.arrow_patch.get_window_extent() for text in ax.texts if not text.get_text()]
+    assert len(boxes) == 5 and len(arrows) == 8
+    crossed = [(box, arrow) for box in boxes for arrow in arrows if box.overlaps(arrow)]
+    assert not crossed
     assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if one.overlaps(other)]
-    assert all(
-        ax.figure.bbox.containsx(box.x0) and ax.figure.bbox.containsx(box.x1) for box in boxes
-    )
+    width = ax.figure.bbox
+    assert all(width.containsx(box.x0) and width.containsx(box.x1) for box in boxes)

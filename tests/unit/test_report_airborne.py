@@ -70,7 +70,7 @@ def test_who_flies_follows_the_spring(k, words):
 @pytest.mark.slow
 def test_a_run_that_does_not_settle_is_told_so():
     table = part.flight_table([fly(ROBOTS["undamped"], BUMP, v=5, tfinal=1)], ROBOTS["undamped"])
-    assert "> 1 |" in plain(table)
+    assert "> 1 |" in plain(table) and "a way of 5 m; the asked runs end at 1.25 m" in plain(table)
 
 
 @pytest.mark.slow
@@ -136,6 +136,6 @@ def test_without_a_landing_there_is_no_order():
 
 
 def test_the_state_diagram_has_words_for_all_it_shows():
-    text, alt = part.modes_caption()
+    text, alt = part.contact_states_caption()
     assert not faults(text) and not faults(alt)
-    assert "four boxes" in alt and r"p_i^\circ" in text
+    assert "four contact states" in text and "four boxes" in alt and r"p_i^\circ" in text

@@ -102,6 +102,7 @@ def test_one_verdict_for_all_speeds():
     assert "No sign" not in plain(part.lesson([False], []))
     assert part.balance_table([], []).startswith("There is no critical speed")
     assert part.strongest([], {"$k$": []})
+    assert "$k$ at 7.85 m/s (1.38 % per 1 %)" in plain(part.strongest([7.85], {"$k$": [1.38]}))
     assert not faults(part.sensitivity_caption([]).text)
 
 
@@ -122,10 +123,22 @@ def test_the_damper_is_blamed_only_where_the_spring_still_pushes():
         ([(0.1, 30)], "at every speed from 0.1 to 30 m/s"),
         ([(0.38, 0.436), (0.72, 30)], "from 0.380 to 0.436 m/s and above 0.720 m/s"),
         ([(0.1, 0.5)], "below 0.500 m/s"),
+        ([(0.381, 0.407), (0.410, 0.436)], "from 0.381 to 0.436 m/s"),
+        ([(0.381, 0.407), (0.412, 0.436)], "from 0.381 to 0.407 m/s and from 0.412 to 0.436 m/s"),
+        ([(0.05, 0.08), (0.5, 0.6)], "from 0.500 to 0.600 m/s"),
     ],
 )
 def test_where_the_spring_goes_too_far(beyond, words):
     assert plain(part.beyond_words(0.1, 30, beyond)) == words
+
+
+def test_ranges_told_as_one_have_the_larger_excess_of_the_two():
+    beyond = [(0.381, 0.407), (0.410, 0.436), (0.72, 30)]
+    words = "0.381 to 0.436 m/s (by up to 9.6 %) and above 0.720 m/s (up to 2.1 times as far)"
+    for most in ([1.096, 1.02, 2.14], [1.02, 1.096, 2.14]):
+        text = plain(part.beyond_words(0.1, 30, beyond, most))
+        assert text == f"from {words}"
+        assert f"{words} it is compressed" in plain(part.verdict([0.1, 30], [0], beyond, most))
 
 
 def test_a_spring_too_weak_to_carry_the_robot_is_called_so():
@@ -151,6 +164,24 @@ def test_a_critical_speed_that_ends_is_told_so():
     assert "no confidence level" in plain(table)
     assert not faults(table)
     assert "no critical speed" in plain(part.critical_table([]))
+
+
+def by_stiffness(*speeds):
+    """As if each of the readings of some data had these critical speeds, m/s."""
+    stiffnesses = fitted(793).stiffnesses(7.14)
+    known = [[CriticalSpeed(v, 0.97 * v, 1.03 * v, None, None) for v in each] for each in speeds]
+    return list(zip(stiffnesses, known, strict=True))
+
+
+def test_what_the_other_readings_make_of_the_critical_speeds():
+    text = plain(part.other_readings(by_stiffness([0.436, 7.85], [0.437, 7.94], [0.437, 8.00])))
+    assert "By the line through the origin or the tangent at the static load, 0.436 becomes" in text
+    assert "7.85 becomes 7.94 or 8.00 m/s, each of them inside" in text and not faults(text)
+    text = plain(part.other_readings(by_stiffness([0.436, 7.85], [0.437, 7.94], [0.437, 9])))
+    assert "what 7.85 becomes is **outside**" in text and "each" not in text and not faults(text)
+    pair = part.other_readings(by_stiffness([0.436, 7.85], [0.437], [0.437, 8.00]))
+    assert "do not even agree" in pair
+    assert "By none of the readings" in part.other_readings(by_stiffness([], [], []))
 
 
 def test_what_rests_on_a_spring_beyond_its_range_is_marked():

@@ -45,7 +45,9 @@ def test_what_is_said_about_a_mode_is_sound(name):
     caption = part.seen_mode_caption(seen, steps, fastest)
     assert "Nyquist's for RK4 at" in plain(caption.text)
     assert "grows with Euler" in plain(caption.alt)
-    for text in (*caption, part.coarse_mode(CRANK_NICOLSON, fastest, 0.2)):
+    turn = part.half_turn(seen["RK4"], steps, fastest)
+    assert plain(caption.text).split("RK4 at ")[1].split()[0] in turn  # the same number of ms
+    for text in (*caption, turn, part.coarse_mode(CRANK_NICOLSON, fastest, 0.2)):
         assert not faults(text)
 
 
@@ -106,6 +108,15 @@ def test_the_witness_may_disagree():
 def test_a_coarse_run_is_described(scheme, lam, words):
     text = part.coarse_mode(scheme, lam, 0.2)
     assert words in text and not faults(text)
+
+
+def test_without_damping_rk4_turns_a_mode_over_in_the_calmest_step():
+    lam, steps = 30j, np.geomspace(0.001, 0.09, 300)
+    text = part.half_turn(accuracy.seen_mode(RK4, lam, steps), steps, lam)
+    assert plain(text).count("81.6 ms") == 2  # sqrt(6) / 30, twice
+    short = steps[:50]
+    text = part.half_turn(accuracy.seen_mode(RK4, lam, short), short, lam)
+    assert "does not reach" in text and not faults(text)
 
 
 def test_a_step_of_crank_nicolson_counts_once():
