@@ -435,7 +435,9 @@ export function render(model, el) {
       panel.size = [Math.round(contentRect.width), Math.round(contentRect.height)];
     }
     redraw = true;
-    schedule();
+    // What is below the window when the page opens lets the others go first.
+    if (!scene && root.getBoundingClientRect().top > innerHeight) setTimeout(schedule, 100);
+    else schedule();
   });
   for (const { canvas } of panels) sizes.observe(canvas);
   calm.addEventListener("change", stop);
