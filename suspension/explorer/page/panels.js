@@ -66,7 +66,7 @@ export const robotPanel = {
     g.lineTo(0, h - 18);
     fill("ground");
     g.fill();
-    for (const x of ticks(X - (w / 2 - 20) / scale, X + (w / 2 - 20) / scale, w / 100)) {
+    for (const x of ticks(X - (w / 2 - 26) / scale, X + (w / 2 - 26) / scale, w / 100)) {
       line(px(x), h - 18, px(x), h - 13);
       text(`${show(x)} m`, px(x), h - 3, { align: "center" });
     }
