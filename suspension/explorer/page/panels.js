@@ -88,7 +88,7 @@ export const robotPanel = {
         halo: true,
       });
       if (spring > data.springEnd) {
-        text("beyond the measured spring", i ? w - 8 : 8, 30, {
+        text("beyond the measured spring", i ? w : 0, 30, {
           align: i ? "right" : "left",
           colour: "doubt",
           bold: true,
@@ -208,7 +208,7 @@ export const forcesPanel = {
 
     text("Normal forces (N)", 0, 13, { colour: "ink", bold: true });
     pen.legend(
-      right - 150,
+      right - 164,
       13,
       right,
       WHEEL.map((wheel, i) => ({
