@@ -100,7 +100,7 @@ def weigh(browser, url):
     total = 0
     for address, answer in list(sizes.items()):
         if address.startswith("http") and answer.ok:
-            body = answer.body()
+            body = page.request.get(address).body()  # the browser may have dropped its copy
             total += min(len(body), len(gzip.compress(body)))
     page.close()
     return total

@@ -33,6 +33,7 @@ from suspension.explorer.settings import (
 )
 from suspension.explorer.still import still
 from suspension.explorer.tables import scheme_facts, shape_of
+from suspension.flight import fly
 from suspension.road import FlatRoad
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
@@ -116,7 +117,7 @@ class Explorer(anywidget.AnyWidget):
                 "panels": ["robot", "speeds"] if compact else list(PANELS),
                 "sliders": list(self.sliders),
                 "compact": compact,
-                "presets": [list(preset) for preset in presets],
+                "presets": presets,
                 "python": _python(family, self.schemes, distance),
             },
             tables={"road": table.astype("<f8").tobytes()},
@@ -153,6 +154,15 @@ class Explorer(anywidget.AnyWidget):
             tfinal=self.distance / self.v,
             scheme=self.scheme,
         )
+
+    def flight(self):
+        """The same drive with wheels that leave the ground.
+
+        Returns
+        -------
+        suspension.flight.Flight
+        """
+        return fly(self.robot, self.road, v=self.v, tfinal=self.distance / self.v)
 
 
 class ExplorerBox(ipywidgets.VBox):
@@ -240,8 +250,8 @@ def explore(
     scheme : Scheme
         What to start with: any scheme, or the name of one of `schemes`.
     time : float, optional
-        The moment to show first, a fraction of the run; that of the loss of contact, or of the
-        smallest force, if None.
+        The moment to show first, a fraction of the run; if None, that of the loss of contact or of
+        the smallest force, and flying, when a wheel is highest above the ground.
     motion : {"linear", "flying"}
         What is drawn in front: the linear model, or wheels that leave the ground.
     view : {"forces", "stability", "robot", "speeds"}
@@ -251,8 +261,8 @@ def explore(
     schemes : sequence of Scheme
         What can be chosen; `scheme` is added if it is not among them.
     presets : sequence of (label, settings)
-        More buttons that set the picture: settings is a dict of the names above, with the name of
-        a scheme as "scheme".
+        More buttons that set the picture: settings is a dict of v, dt, k, c, height, sigma, scheme,
+        time and motion, or of some of them; the others are those to start with.
     compact : bool
         Only the robot, the curve over all speeds, and the slider for the speed.
     wide : bool
@@ -285,7 +295,7 @@ def explore(
     if not family.has_bump and not (height is None and sigma is None):
         raise ValueError("height and sigma must be left out, for the road is no GaussianBump")
     if time is not None:
-        time = _checks.number("time", time, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
+        time = _fraction("time", time)
     explorer = Explorer(
         family,
         schemes,
@@ -293,24 +303,55 @@ def explore(
         scheme_index=names.index(_checks.one_of("scheme", chosen, names)),
         motion=_checks.one_of("motion", motion, MOTIONS),
         view=_checks.one_of("view", view, VIEWS),
-        presets=presets,
+        presets=[_preset(preset, names, family) for preset in presets],
         compact=bool(compact),
         wide=bool(wide),
         **settings,
     )
     if time is None:
-        run = explorer.trajectory()
-        t = run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
-        time = min(t * v / distance, 1)
+        time = min(_moment_to_show(explorer) * explorer.v / distance, 1)
     explorer.time = float(time)
     return ExplorerBox(explorer, controls(explorer))
 
 
-def _in_range(name, value, family):
+def _moment_to_show(explorer):
+    """When a wheel is highest above the ground, contact is lost, or a force is least, s."""
+    if explorer.motion == "flying":
+        flight = explorer.flight()
+        if flight.events:
+            return flight.T[flight.gaps.max(axis=0).argmax()]
+    run = explorer.trajectory()
+    return run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
+
+
+def _preset(preset, names, family):
+    """A button's label and its settings, as the page reads them."""
+    label, settings = preset
+    checked = {}
+    for name, value in settings.items():
+        if name == "scheme":
+            value = _checks.one_of("scheme of presets", getattr(value, "name", value), names)
+        elif name == "motion":
+            value = _checks.one_of("motion of presets", value, MOTIONS)
+        elif name == "time":
+            value = _fraction("time of presets", value)
+        elif name in family.ranges:
+            value = _in_range(name, value, family, f"{name} of presets")
+        else:
+            raise ValueError(f"presets must not set {name!r}")
+        checked[name] = value
+    return [str(label), checked]
+
+
+def _fraction(name, value):
+    return _checks.number(name, value, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
+
+
+def _in_range(name, value, family, called=None):
     """A setting as a float, checked against what its slider offers."""
     reach = family.ranges[name]
     allowed = f"{reach.low:g} to {reach.high:g}"
-    return _checks.number(name, value, allowed, lambda number: number in reach)
+    return _checks.number(called or name, value, allowed, lambda number: number in reach)
 
 
 def _python(family, schemes, distance):
@@ -327,7 +368,8 @@ def _python(family, schemes, distance):
     lines = ["import suspension", ""]
     lines += [
         "robot = suspension.Robot(",
-        f"    k1={{k1}}, k2={{k2}}, c1={{c1}}, c2={{c2}}, {others}",
+        "    k1={k1}, k2={k2},",
+        f"    c1={{c1}}, c2={{c2}}, {others},",
         ")",
     ]
     if family.has_bump:
@@ -340,7 +382,8 @@ def _python(family, schemes, distance):
         lines.append("# road: the function of x that this page defines")
     lines += [
         "run = suspension.simulate(",
-        f"    robot, road, v={{v}}, dt={{dt}}, tfinal={distance!r} / {{v}}, scheme={{scheme}}",
+        f"    robot, road, v={{v}}, dt={{dt}}, tfinal={distance!r} / {{v}},",
+        "    scheme={scheme},",
         ")",
     ]
     flight = f"flight = suspension.fly(robot, road, v={{v}}, tfinal={distance!r} / {{v}})"

@@ -74,7 +74,8 @@ def _slider(explorer, control):
 def native(explorer):
     """The same controls as HTML: a range and a number for each slider, buttons for the schemes.
 
-    The page's script fills in the values and moves them; without it they are not shown.
+    The page's script fills in the values and moves them; without it they are not shown. So are the
+    buttons of the author's own presets.
     """
     rows = []
     for control in offered(explorer):
@@ -96,4 +97,13 @@ def native(explorer):
         '<div class="se-choice" data-trait="scheme_index" role="group" aria-label="Scheme">'
         f"{buttons}</div>"
     )
+    if presets := explorer.facts["presets"]:
+        buttons = "".join(
+            f'<button type="button" data-preset="{i}">{escape(label)}</button>'
+            for i, (label, _) in enumerate(presets)
+        )
+        rows.append(
+            '<div class="se-presets se-experiments" role="group" aria-label="Experiments">'
+            f"<span>Experiments</span>{buttons}</div>"
+        )
     return "".join(rows)

@@ -13,7 +13,7 @@ from suspension.explorer.settings import ASKED, COURSE, VMAX, VMIN
 from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
 from suspension.forces import WHEEL
 from suspension.least_force import minima
-from suspension.report.words import quantity
+from suspension.report.words import join, quantity
 
 __all__ = ["still"]
 
@@ -28,7 +28,7 @@ def still(explorer):
     run = explorer.trajectory()
     figure = _compact(explorer, run) if explorer.compact else _panels(explorer, run)
     source = f"data:image/svg+xml,{quote(_svg(figure), safe=' /:;,=()')}"
-    text = _describe(explorer.robot, run)
+    text = _describe(explorer, run)
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 
@@ -87,10 +87,13 @@ def _knows_all_speeds(explorer):
 def _draw_robot(explorer, run, ax):
     robot = explorer.robot
     t = explorer.time * explorer.distance / run.v
-    n = min(round(t / run.dt), len(run.T) - 1)
+    flight = explorer.flight() if explorer.motion == "flying" else None
+    shown = flight or run
+    n = np.abs(shown.T - t).argmin()
+    X = run.v * shown.T[n]
     drawing = RobotDrawing(ax, robot, explorer.road)
-    drawing.ground(run.X[n] - 3 * robot.L1, run.X[n] + 3 * robot.L2)
-    drawing.update(run.W[:, n], run.X[n])
+    drawing.ground(X - 3 * robot.L1, X + 3 * robot.L2)
+    drawing.update(shown.W[:, n], X, gaps=flight.gaps[:, n] if flight else None)
 
 
 def _draw_speeds(explorer, ax):
@@ -102,17 +105,22 @@ def _draw_speeds(explorer, ax):
     ax.legend().remove()
 
 
-def _describe(robot, run):
+def _describe(explorer, run):
     """What the picture says, in words."""
+    panels = ["the robot on the road"]
+    if _knows_all_speeds(explorer):
+        panels.append("the least force of each wheel at every speed")
+    if not explorer.compact:
+        panels += ["both normal forces", f"the stability region of {run.scheme.name}"]
     lifts = f"the {WHEEL[run.loss.wheel]} wheel leaves the ground" if run.loss else "no wheel lifts"
     least = run.N.min()
     force = "has no limit"
     if np.isfinite(least):
         force = f"is {quantity(least, 'newtons')}"
-    stable = "stable" if run.scheme.is_stable(robot.eigenvalues, run.dt) else "unstable"
+    stable = run.scheme.is_stable(explorer.robot.eigenvalues, run.dt)
+    pictures = join(panels)
     return (
-        "The robot on the road, the least force of each wheel at every speed, both normal forces "
-        f"and the stability region of {run.scheme.name}: "
+        f"{pictures[0].upper()}{pictures[1:]}: "
         f"at {run.v:g} metres per second {lifts}, the smallest force {force}, "
-        f"and a step of {1000 * run.dt:g} ms is {stable}."
+        f"and a step of {1000 * run.dt:g} ms is {'stable' if stable else 'unstable'}."
     )

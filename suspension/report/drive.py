@@ -4,7 +4,7 @@ import numpy as np
 
 from suspension.report.words import SPACE, fixed, join, number, speed_list
 
-__all__ = ["experiments"]
+__all__ = ["experiments", "presets"]
 
 
 def experiments(robot, critical, flips, limit, slider):
@@ -27,6 +27,32 @@ def experiments(robot, critical, flips, limit, slider):
     if swing:
         texts.append(swing)
     return "\n".join(f"{i}. {text}" for i, text in enumerate(texts, 1))
+
+
+def presets(robot, flips, limit, slider):
+    """The same experiments as buttons of an explorer.
+
+    Parameters
+    ----------
+    robot, flips, limit, slider
+        As for `experiments`.
+
+    Returns
+    -------
+    presets : list of (label, settings)
+    """
+    long = float(min((dt for dt in slider if dt > limit), default=max(slider)))
+    wrong = {"v": 1.2, "dt": float(max(slider)), "scheme": "Crank-Nicolson"}
+    found = [
+        ("Faster, safer?", {"v": 0.25}),
+        ("Blow it up" if long > limit else "The longest step", {"v": 1.2, "dt": long}),
+        ("Stable, wrong", wrong),
+        ("The spring", {"v": 5.0} | ({"k": float(flips[0])} if len(flips) else {})),
+    ]
+    speed = _speed_in_step(robot)
+    if speed is not None:
+        found += [("In step", {"v": speed}), ("Out of step", {"v": 2 * speed})]
+    return found
 
 
 def _set(text, **settings):
@@ -97,17 +123,23 @@ def _spring(flips):
 
 def _in_step(robot):
     """The speeds at which the rear wheel meets the bump in or out of step with the heave."""
-    heave = max(robot.eigenvalues, key=lambda z: _heave_share(robot, z))
-    if heave.imag == 0:
+    one = _speed_in_step(robot)
+    if one is None:
         return ""
-    period = 2 * np.pi / abs(heave.imag)
-    one = (robot.L1 + robot.L2) / period
     return (
-        f"**In step, out of step.** Compare {_set(f'v = {number(one)}', v=float(one))} with "
-        f"{_set(f'{number(2 * one)}{SPACE}m/s', v=float(2 * one))}: the rear "
+        f"**In step, out of step.** Compare {_set(f'v = {number(one)}', v=one)} with "
+        f"{_set(f'{number(2 * one)}{SPACE}m/s', v=2 * one)}: the rear "
         "wheel meets the bump one heave period, or half of one, after the front wheel. One builds "
         "the heave up, the other takes it away."
     )
+
+
+def _speed_in_step(robot):
+    """The speed at which one heave period passes between the wheels, m/s; None without a swing."""
+    heave = max(robot.eigenvalues, key=lambda z: _heave_share(robot, z))
+    if heave.imag == 0:
+        return None
+    return float((robot.L1 + robot.L2) * abs(heave.imag) / (2 * np.pi))
 
 
 def _heave_share(robot, z):

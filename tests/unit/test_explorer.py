@@ -15,8 +15,10 @@ from node import run_in_node
 
 from suspension.explorer import DTS, SCHEMES, explore, page_script, page_style, tables
 from suspension.explorer.bundle import bundle
+from suspension.explorer.controls import native
 from suspension.explorer.family import Family, affine
 from suspension.explorer.settings import SPRING_END
+from suspension.explorer.still import still
 from suspension.report.words import quantity
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
@@ -313,6 +315,48 @@ def test_a_compact_one_has_one_slider():
     html = explore(ROBOT, BUMP, compact=True).html()
     assert re.findall(r'data-trait="(\w+)"', html) == ["v"]
     assert "se-compact" in html and state_of(html)["facts"]["panels"] == ["robot", "speeds"]
+    alt = re.search(r'alt="([^"]+)"', html)[1]
+    assert "least force of each wheel at every speed" in alt and "stability region" not in alt
+
+
+@pytest.mark.slow
+def test_flying_it_starts_where_a_wheel_is_highest_and_so_is_drawn():
+    box = explore(ROBOT, BUMP, v=5, motion="flying", compact=True)
+    flight, linear = box.explorer.flight(), explore(ROBOT, BUMP, v=5, compact=True)
+    t = box.explorer.time * 1.25 / 5
+    assert t == pytest.approx(flight.T[flight.gaps.max(axis=0).argmax()], abs=1e-9)
+    linear.explorer.time = box.explorer.time
+    assert still(box.explorer) != still(linear.explorer)
+
+
+def test_presets_become_buttons_that_the_page_can_set():
+    presets = [
+        ("Long <step>", {"dt": 0.1, "scheme": HEUN}),
+        ("Up", {"motion": "flying", "time": 1}),
+    ]
+    box = explore(ROBOT, BUMP, schemes=(*SCHEMES, HEUN), presets=presets)
+    assert box.explorer.facts["presets"] == [
+        ["Long <step>", {"dt": 0.1, "scheme": "Heun"}],
+        ["Up", {"motion": "flying", "time": 1.0}],
+    ]
+    assert '<button type="button" data-preset="0">Long &lt;step&gt;</button>' in native(
+        box.explorer
+    )
+
+
+@pytest.mark.parametrize(
+    ("settings", "complaint"),
+    [
+        ({"v": 26}, "v of presets must be 0.1 to 25"),
+        ({"scheme": "RK5"}, "scheme of presets must be one of"),
+        ({"motion": "walking"}, "motion of presets must be one of"),
+        ({"time": 2}, "time of presets must be a fraction"),
+        ({"view": "robot"}, "presets must not set 'view'"),
+    ],
+)
+def test_a_bad_preset_is_refused(settings, complaint):
+    with pytest.raises(ValueError, match=f"^{complaint}"):
+        explore(ROBOT, BUMP, presets=[("Wrong", settings)])
 
 
 @pytest.mark.slow
@@ -327,5 +371,5 @@ def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
 
 def test_what_a_page_has_to_load_is_small():
     scripts = page_script() + page_style()
-    assert len(gzip.compress(scripts.encode())) < 36_000
+    assert len(gzip.compress(scripts.encode())) < 38_000
     assert not re.search(r"^\s*(import|export)\b", page_script(), re.MULTILINE)

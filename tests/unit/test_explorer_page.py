@@ -116,7 +116,7 @@ def test_the_curve_over_all_speeds_is_that_of_the_exact_margins(explorers, tmp_p
 @pytest.mark.parametrize("case", CASES)
 def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
     explorer, rng = explorers[case], np.random.default_rng(8)
-    settings = list(random_settings(explorer, rng, 30))
+    settings = list(random_settings(explorer, rng, 20))
     for setting, v in zip(settings, (0.5, 0.8, 1.2, 2, 5, 8, 10, 20, 25)):
         setting |= explorer.family.own | {"v": v}
     switches = 0

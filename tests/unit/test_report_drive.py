@@ -5,8 +5,10 @@ import re
 import pytest
 from cases import STIFFNESSES, faults
 
+from suspension.explorer import explore
 from suspension.explorer.settings import DTS
-from suspension.report.drive import experiments
+from suspension.report.drive import experiments, presets
+from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import RK4
 
@@ -57,3 +59,24 @@ def test_a_heave_without_a_swing_is_left_out():
 def test_phrases_set_the_picture():
     links = re.findall(r"\]\(#explore:([^)]*)\)", told())
     assert {"v=0.25", "v=1.2&scheme=RK4", "v=1.2&scheme=RK4&dt=0.08", "v=5&k=572.8"} <= set(links)
+
+
+def test_every_experiment_has_a_button_that_an_explorer_takes():
+    robot = Robot(793, 793)
+    buttons = presets(robot, [572.8], 0.0744, DTS)
+    labels = ["Faster, safer?", "Blow it up", "Stable, wrong", "The spring"]
+    assert [label for label, _ in buttons] == [*labels, "In step", "Out of step"]
+    settings = dict(buttons)
+    assert settings["Blow it up"]["dt"] == 0.08 and settings["The spring"]["k"] == 572.8
+    assert settings["Out of step"]["v"] == 2 * settings["In step"]["v"]
+    links = told()
+    for name in ("In step", "Out of step"):
+        assert f"#explore:v={settings[name]['v']:.10g})" in links
+    taken = explore(robot, GaussianBump(), presets=buttons).explorer.facts["presets"]
+    assert [label for label, _ in taken] == [label for label, _ in buttons]
+
+
+def test_a_button_promises_nothing_that_does_not_happen():
+    calm = dict(presets(Robot(100, 100, c1=40, c2=40), [], 0.5, DTS))
+    assert "Blow it up" not in calm and calm["The longest step"]["dt"] == DTS[-1]
+    assert calm["The spring"] == {"v": 5.0} and "In step" not in calm

@@ -44,7 +44,7 @@ export function nextValue(key, value, range, steps) {
   return digits === value ? clamp(next, low, high) : digits;
 }
 
-/** Join every control of a box to the model; the view tells of bands under the speed's slider. */
+/** Join every control of a box to the model. */
 export function bindControls(box, model) {
   const facts = model.get("facts");
   for (const control of box.querySelectorAll(".se-control")) bindSlider(control, model, facts);

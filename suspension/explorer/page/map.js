@@ -31,8 +31,8 @@ export function makeMap(data, settings) {
 }
 
 /** Draw a map as far as it is known; where things are in it. */
-export function drawMap({ w, h, shade, stroke, line, text, inside, dot }, { data, robot }, map) {
-  const [left, right, top, bottom] = [44, w - 12, 26, h - 30];
+export function drawMap({ w, h, shade, stroke, line, text, legend, inside, dot }, { data, robot }, map) {
+  const [left, right, top, bottom] = [44, w - 12, 26, h - 33];
   const { v: speeds, k: stiffnesses } = data.ranges;
   const ratio = Math.log(speeds[1] / speeds[0]),
     rise = Math.log(stiffnesses[1] / stiffnesses[0]);
@@ -40,18 +40,22 @@ export function drawMap({ w, h, shade, stroke, line, text, inside, dot }, { data
   const py = (k) => bottom - ((bottom - top) * Math.log(k / stiffnesses[0])) / rise;
   const stiffness = (y) =>
     stiffnesses[0] * Math.exp((rise * clamp(bottom - y, 0, bottom - top)) / (bottom - top));
-  text("Margin over speed and stiffness: kept or lost", 0, 13, { colour: "ink", bold: true });
+  text("At every v and k", 0, 13, { colour: "ink", bold: true });
+  legend(right - 114, 13, right, [
+    { words: "kept", colour: "region", width: 8, alpha: 0.5 },
+    { words: "lost", colour: "alarm", width: 8, alpha: 0.5 },
+  ]);
   const rest = Math.max(...robot.weight),
     [cw, ch] = [(right - left) / (COLUMNS - 1), (bottom - top) / (ROWS - 1)];
   inside(left, top, right - left, bottom - top, () => {
+    // Neighbours share an edge on a whole pixel, or seams would show.
+    const x = (j) => Math.round(left + (j - 0.5) * cw),
+      y = (i) => Math.round(bottom - (i - 0.5) * ch);
     map.margins.forEach((row, i) => {
-      const y = Math.round(py(map.stiffnesses[i]) - ch / 2), // whole pixels, or seams would show
-        height = Math.round(py(map.stiffnesses[i]) + ch / 2) - y;
       row.forEach((margin, j) => {
-        const depth = margin > 0 ? margin / rest : clamp(-margin / (3 * rest), 0, 1);
-        const x = Math.round(px(map.speeds[j]) - cw / 2),
-          width = Math.round(px(map.speeds[j]) + cw / 2) - x;
-        shade(margin > 0 ? "region" : "alarm", 0.12 + 0.55 * depth, x, y, width, height);
+        const depth = margin > 0 ? margin / rest : clamp(-margin / (3 * rest), 0, 1),
+          colour = margin > 0 ? "region" : "alarm";
+        shade(colour, 0.12 + 0.55 * depth, x(j), y(i + 1), x(j + 1) - x(j), y(i) - y(i + 1));
       });
     });
     stroke("ink", 1.8);
@@ -69,8 +73,8 @@ export function drawMap({ w, h, shade, stroke, line, text, inside, dot }, { data
     line(left - 4, py(k), left, py(k));
     text(show(k, 4), left - 6, py(k) + 4, { align: "right" });
   }
-  text("speed v (m/s)", right, h - 2, { align: "right" });
-  text("k (N/m)", left, h - 2);
+  text("speed v (m/s)", right, h - 4, { align: "right" });
+  text("k (N/m)", left, h - 4);
   return { left, right, top, bottom, px, py, lowest: speeds[0], ratio, stiffness };
 }
 

@@ -35,7 +35,7 @@ function start(box) {
   const model = makeModel(values),
     place = box.querySelector(".se-place");
   const view = render(model, place);
-  bindControls(box, model, view);
+  bindControls(box, model);
   box.classList.add("se-live");
   return { box, model, view, initial: settingsOf(model) };
 }
@@ -74,7 +74,6 @@ function begin() {
         history.replaceState(history.state, "", text ? PREFIX + text : bare);
       }, PAUSE);
     });
-    view.link = () => new URL(PREFIX + writeHash(view.settings(), initial, index), location.href).href;
   });
   document.addEventListener("click", (event) => {
     const link = event.target.closest?.(`a[href^="${PREFIX}"]`);

@@ -66,12 +66,15 @@ export const robotPanel = {
     g.lineTo(0, h - 18);
     fill("ground");
     g.fill();
-    for (const x of ticks(X - (w / 2 - 20) / scale, X + (w / 2 - 20) / scale, w / 100)) {
+    for (const x of ticks(X - (w / 2 - 26) / scale, X + (w / 2 - 26) / scale, w / 100)) {
       line(px(x), h - 18, px(x), h - 13);
       text(`${show(x)} m`, px(x), h - 3, { align: "center" });
     }
     const place = { X, px, py, u, r: 0.055 * length, ride: 0.28 * length, scale };
-    if (ghost) drawRobot(pen, scene, place, ghost, true);
+    if (ghost) {
+      drawRobot(pen, scene, place, ghost, true);
+      text(`faint: ${motion === "flying" ? "linear" : "flying"}`, 0, 13);
+    }
     const shown = now[motion],
       wild = drawRobot(pen, scene, place, shown, false);
     [0, 1].forEach((i) => {
@@ -85,10 +88,11 @@ export const robotPanel = {
         halo: true,
       });
       if (spring > data.springEnd) {
-        text("beyond the measured spring", i ? w - 8 : 8, 30, {
+        text("beyond the measured spring", i ? w : 0, 30, {
           align: i ? "right" : "left",
           colour: "doubt",
           bold: true,
+          halo: true,
         });
       }
     });
@@ -149,9 +153,10 @@ function drawRobot(
     if (faint) return;
     const foot = py(u[i]),
       beside = x + (i ? 1 : -1) * (r * scale + 16);
-    const arrow = clamp((34 * N[i]) / flight.N[i][0], 0, 110); // 34 pixels for the force at rest
+    const rest = clamp(0.2 * foot, 14, 34); // pixels for the force at rest
+    const arrow = clamp((rest * N[i]) / flight.N[i][0], 0, foot - 4);
     stroke(WHEEL[i], 2.5);
-    line(beside, foot, beside, foot - arrow);
+    if (arrow > 2) line(beside, foot, beside, foot - arrow);
     if (arrow > 7) line(beside - 4, foot - arrow + 6, beside, foot - arrow, beside + 4, foot - arrow + 6);
   });
   if (faint) g.globalAlpha = 0.3;
@@ -193,35 +198,34 @@ export const forcesPanel = {
       { run, truth, flight, v, end, data } = scene;
     const flying = motion === "flying",
       exact = truth.verdict,
-      verdict = flying || !run ? exact : run.verdict;
-    const [left, right, top, bottom] = [38, w - 10, 46, h - 30];
-    const floor = Math.min(0, flying ? 0 : exact.least),
-      span = exact.most - floor || 1;
-    const peak = flying ? highest(flight, exact.most) : exact.most;
-    const low = flying
-      ? -0.08 * peak
-      : Math.max(Math.min(floor, verdict.least), floor - 0.7 * span) - 0.05 * span;
-    const high = flying
-      ? 1.08 * peak
-      : Math.min(Math.max(exact.most, verdict.most), exact.most + 0.7 * span) + 0.05 * span;
+      verdict = flying || !run ? exact : run.verdict,
+      beyond = (flying ? flight : truth).beyond;
+    const [left, right, top, bottom] = [38, w - 16, 46, h - 33];
+    const [low, high] = forceRange(scene, flying, verdict, pinned);
     const px = (t) => left + ((right - left) * t) / end,
       py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
     this.frame = { left, right, top, bottom, px, py, end };
 
     text("Normal forces (N)", 0, 13, { colour: "ink", bold: true });
-    WHEEL.forEach((wheel, i) => {
-      const x = right - [116, 42][i];
-      stroke(wheel, 2, DASH[i]);
-      line(x - 26, 9, x - 4, 9);
-      text(`${NAMES[i]} ${wheel}`, x, 13, { colour: "ink" });
-    });
-    if (w > 420) {
-      stroke("soft", 6);
-      g.globalAlpha = 0.3;
-      line(right - 246, 9, right - 222, 9);
-      g.globalAlpha = 1;
-      text(flying ? "linear" : "exact", right - 218, 13);
-    }
+    pen.legend(
+      right - 164,
+      13,
+      right,
+      WHEEL.map((wheel, i) => ({
+        words: `${NAMES[i]} ${wheel}`,
+        colour: wheel,
+        width: 2,
+        dash: DASH[i],
+        ink: "ink",
+      })),
+    );
+    pen.legend(left, h - 4, right - 34, [
+      { words: flying ? "linear" : "exact", colour: "soft", width: 6, alpha: 0.3 },
+      ...(pinned ? [{ words: "pinned", colour: "soft", width: 1.5 }] : []),
+      ...(beyond.length
+        ? [{ words: `spring > ${show(1000 * data.springEnd)} mm`, colour: "doubt", width: 4, alpha: 0.6 }]
+        : []),
+    ]);
     levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
     stroke("soft", 1);
     for (const t of ticks(0, end, (right - left) / 70)) {
@@ -232,11 +236,11 @@ export const forcesPanel = {
       line(px(X / v), top, px(X / v), top - 4);
       text(show(X), px(X / v), top - 7, { align: "center" });
     }
-    text("time t (s)", right, h - 2, { align: "right" });
+    text("t (s)", right, h - 4, { align: "right" });
     text("X (m)", left, top - 7);
 
     inside(left, top, right - left, bottom - top, () => {
-      for (const [a, b] of truth.beyond) shade("doubt", 0.6, px(a), top, Math.max(px(b) - px(a), 2), 4);
+      for (const [a, b] of beyond) shade("doubt", 0.6, px(a), top, Math.max(px(b) - px(a), 2), 4);
       const lost = verdict.lost && px(verdict.lost.t);
       if (flying) {
         shadeAirborne(pen, flight, px, top, bottom);
@@ -317,6 +321,18 @@ export const forcesPanel = {
   },
 };
 
+/** From where to where forces are drawn: the exact ones, and of others as much as leaves these legible. */
+function forceRange({ truth, flight }, flying, verdict, pinned) {
+  const exact = truth.verdict,
+    most = flying ? highest(flight, exact.most) : exact.most,
+    least = Math.min(0, flying ? 0 : exact.least);
+  const span = most - least || 1,
+    others = [...(flying ? [] : [verdict]), ...(pinned ? [pinned.verdict] : [])];
+  const low = Math.min(least, ...others.map((other) => other.least)),
+    high = Math.max(most, ...others.map((other) => other.most));
+  return [Math.max(low, least - 0.7 * span) - 0.06 * span, Math.min(high, most + 0.7 * span) + 0.06 * span];
+}
+
 const highest = (flight, most) => {
   let top = Math.min(most, 1e9);
   for (const N of flight.N) for (let n = 0; n <= flight.J; n++) if (N[n] > top) top = N[n];
@@ -340,8 +356,9 @@ function mark({ dot, text }, { px, py, left, right, top, bottom }, t, N, words, 
   const x = px(t),
     y = clamp(py(N), top + 8, bottom - 8),
     align = x > (left + right) / 2 ? "right" : "left";
+  const below = y + 22 < bottom ? 18 : -10;
   dot(x, y, 6, null, colour, 2.5);
-  text(words, x + (align === "left" ? 10 : -10), y + 18, { align, colour, bold: true, halo: true });
+  text(words, x + (align === "left" ? 10 : -10), y + below, { align, colour, bold: true, halo: true });
 }
 
 /** The least force of each wheel at every speed, with the speeds at which contact is lost shaded. */
@@ -358,10 +375,10 @@ export const speedsPanel = {
       { curve, data, robot } = scene;
     const { speeds, least, critical } = curve,
       [lowest, highestSpeed] = data.ranges.v;
-    const [left, right, top, bottom] = [38, w - 12, 46, h - 30],
+    const [left, right, top, bottom] = [38, w - 12, 46, h - 33],
       rest = Math.max(...robot.weight);
     const bottomForce = Math.min(...least[0], ...least[1]);
-    const low = Math.max(Math.min(bottomForce, -0.4 * rest), -4 * rest) - 0.1 * rest,
+    const low = Math.max(1.1 * Math.min(bottomForce, -0.4 * rest), -7 * rest),
       high = 1.9 * rest;
     const ratio = Math.log(highestSpeed / lowest);
     const px = (v) => left + ((right - left) * Math.log(v / lowest)) / ratio;
@@ -376,7 +393,8 @@ export const speedsPanel = {
         b = px(edge);
       shade(kept ? "region" : "alarm", 0.1, a, top, b - a, bottom - top);
       if (b - a > 40)
-        text(kept ? "kept" : "lost", (a + b) / 2, top + 14, {
+        // where no curve is: a least force is above zero, or below
+        text(kept ? "kept" : "lost", (a + b) / 2, kept ? bottom - 8 : top + 14, {
           align: "center",
           colour: kept ? "region" : "alarm",
           bold: true,
@@ -388,7 +406,7 @@ export const speedsPanel = {
       line(px(v), bottom, px(v), bottom + 4);
       text(show(v), px(v), bottom + 15, { align: "center" });
     }
-    text("speed v (m/s)", right, h - 2, { align: "right" });
+    text("speed v (m/s)", right, h - 4, { align: "right" });
     inside(left, top, right - left, bottom - top, () => {
       stroke("ink", 1.2);
       line(left, py(0), right, py(0));
@@ -425,8 +443,9 @@ export const speedsPanel = {
       return;
     }
     stroke("ink", 1.5);
-    line(x, top, x, bottom);
-    const margin = clamp(py(scene.truth.verdict.least), top, bottom);
+    const { least } = scene.truth.verdict,
+      margin = clamp(py(least), top, bottom);
+    line(x, least > 0 ? top : top + 18, x, least > 0 ? bottom - 22 : bottom); // not through the words
     dot(x, margin, 6, "ink", "paper", 2);
   },
   grab(x, y, { map }) {
@@ -448,7 +467,7 @@ export const stabilityPanel = {
   still(pen, scene, { pinned, held }) {
     const { w, h, text } = pen,
       { scheme, robot, dt } = scene;
-    const [left, right, top, bottom] = [26, w - 4, 24, h - 30],
+    const [left, right, top, bottom] = [26, w - 4, 24, h - 33],
       size = robot.modes.map(([re, im]) => Math.hypot(re, im));
     const half = held ? this.frame.half : Math.max(3.4, 1.15 * dt * Math.max(...size));
     this.frame = { half, ...plane(left, right, top, bottom, half, 0.74) };
@@ -460,8 +479,8 @@ export const stabilityPanel = {
     for (const re of ticks((left - zero) / scale, (right - zero) / scale, (right - left) / 40)) {
       text(show(re), px(re), bottom + 15, { align: "center" });
     }
-    text("Re λΔt", right, h - 2, { align: "right" });
-    text("Im", left + 4, top + 12);
+    text("Re λΔt", right, h - 4, { align: "right" });
+    text("Im λΔt", left + 4, top + 12);
     this.draw(pen, scene, this.frame, pinned, true);
     // When the modes crowd near zero: the same, enlarged. What one holds on to does not move away.
     const reach = dt * Math.max(...size);

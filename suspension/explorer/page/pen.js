@@ -79,6 +79,22 @@ export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 
       g.fillText(words, x, y);
       g.restore();
     },
+    /** Swatches, each with a word for it, one after another as long as there is room. */
+    legend(x, y, end, entries) {
+      g.save();
+      g.font = `${colours.size ?? 12}px ${colours.font}`;
+      for (const { words, colour, width, alpha = 1, dash = [], ink = "soft" } of entries) {
+        const next = x + 26 + g.measureText(words).width;
+        if (next > end + 1) break;
+        pen.stroke(colour, width, dash);
+        g.globalAlpha = alpha;
+        pen.line(x, y - 4, x + 22, y - 4);
+        g.globalAlpha = 1;
+        pen.text(words, x + 26, y, { colour: ink });
+        x = next + 12;
+      }
+      g.restore();
+    },
     inside(x, y, width, height, draw) {
       g.save();
       g.beginPath();

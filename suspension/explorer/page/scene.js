@@ -15,6 +15,7 @@ import {
   reference,
   simulate,
 } from "./model.js";
+import { disagrees } from "./words.js";
 
 const STABLE = 1 + 1e-12; // as in Python
 export const SETTINGS = ["v", "dt", "k", "c", "height", "sigma", "scheme_index"];
@@ -47,9 +48,11 @@ export function makeScenes(data) {
       const found = reference(data, robot, road, settings, spaces.truth);
       return { ...found, verdict: judgeExactly(found), beyond: beyond(data, robot, road, found) };
     });
-    const flight = once("flight", [...there, truth.verdict.lost ? "" : truth.J], () =>
-      truth.verdict.lost ? fly(data, robot, road, settings, spaces.flight) : grounded(truth),
-    );
+    const flight = once("flight", [...there, truth.verdict.lost ? "" : truth.J], () => {
+      if (!truth.verdict.lost) return grounded(truth);
+      const found = fly(data, robot, road, settings, spaces.flight);
+      return { ...found, beyond: beyond(data, robot, road, found) };
+    });
     const run = once("run", [...there, dt, scheme_index], () => {
       const found = simulate(data, robot, road, scheme, v, dt, J, spaces.run);
       return found && { ...found, verdict: judge(found), error: difference(found, truth) };
@@ -92,8 +95,21 @@ export function momentOf(scene, fraction) {
   return { t, X: scene.v * t, linear, flying: lookUp(scene.flight, t / scene.flight.dt) };
 }
 
-/** Where to look first: at the loss of contact, or at the least force; a fraction of the run. */
-export function momentToShow({ run, truth, end, stable }) {
-  const { lost, t } = (stable ? run : truth).verdict;
+/**
+ * Where to look first, a fraction of the run: at the loss of contact or the least force, of the exact
+ * motion if the run tells another story; flying, where a wheel is highest above the ground.
+ */
+export function momentToShow(scene, motion) {
+  const { run, truth, flight, end, stable } = scene;
+  if (motion === "flying" && flight.events.length) return Math.min(highest(flight) / end, 1);
+  const { lost, t } = (stable && !disagrees(scene) ? run : truth).verdict;
   return Math.min((lost ? lost.t : t) / end, 1);
+}
+
+/** When a wheel is highest above the ground. */
+function highest({ gaps, J, dt }) {
+  let at = 0,
+    most = 0;
+  for (const gap of gaps) for (let n = 0; n <= J; n++) if (gap[n] > most) [at, most] = [n, gap[n]];
+  return at * dt;
 }

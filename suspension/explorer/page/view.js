@@ -1,14 +1,15 @@
 // The view: one scene, its panels, the words above them and what one can do with them. What one
 // moves is a model with get, set, on and save_changes: anywidget's, or that of a built page.
 
+import { makeScale } from "./controls.js";
 import { makeMap } from "./map.js";
-import { readModel } from "./model.js";
+import { judge, readModel } from "./model.js";
 import { PANELS } from "./panels.js";
 import { begin, clamp, plain, show } from "./pen.js";
 import { makeScenes, momentOf, momentToShow } from "./scene.js";
 import { settingsOf } from "./state.js";
 import { pythonOf, savePicture, saveTable } from "./take.js";
-import { describe, describeMoment } from "./words.js";
+import { CLOSE, describe, describeMoment, describePinned, unit } from "./words.js";
 
 const SECONDS = 8; // one crossing, played
 const PAUSE = 700; // ms after the last change, until a screen reader is told
@@ -76,6 +77,7 @@ export function render(model, el) {
     redraw = true,
     looks = 0; // counts changes of colours and pins
   const settled = [],
+    undo = [],
     numbers = () => Object.fromEntries(SETTINGS.map((name) => [name, model.get(name)]));
 
   const compute = () => {
@@ -114,7 +116,8 @@ export function render(model, el) {
     if (!colours) readColours();
     const shown = options(),
       { now, motion } = shown;
-    shown.ghost = motion === "flying" ? now.linear : scene.flight.events.length ? now.flying : null;
+    const apart = scene.flight.events.length > 0 || (motion === "flying" && !(scene.run?.error < CLOSE));
+    shown.ghost = apart ? (motion === "flying" ? now.linear : now.flying) : null;
     for (const panel of panels) {
       const [w, h] = panel.size;
       if (!w || !h) continue; // not shown on a phone
@@ -132,6 +135,7 @@ export function render(model, el) {
     if (redraw) schedule();
     write(clock, describeMoment(now, motion));
     moment.value = model.get("time");
+    moment.setAttribute("aria-valuetext", `t = ${unit(now.t, "s")}`);
     root.dispatchEvent(new Event("painted", { bubbles: true })); // for those who measure
   };
   const schedule = () => (frame ||= requestAnimationFrame(paint));
@@ -146,16 +150,17 @@ export function render(model, el) {
   const speak = () => {
     const { tone, headline: text, details: more } = describe(scene, model.get("motion"));
     write(headline, text);
-    write(details, more.join(" "));
+    write(details, [...more, ...(pinned ? [pinned.words] : [])].join(" "));
     status.dataset.tone = tone;
     for (const { name, title, canvas } of panels) {
-      canvas.setAttribute("aria-label", `${title}. ${name === "speeds" ? describeSpeeds() : text}`);
+      const label = name === "speeds" && mapped ? "Kept or lost at every speed and stiffness" : title;
+      canvas.setAttribute("aria-label", `${label}. ${name === "speeds" ? describeSpeeds() : text}`);
     }
-    const bands = bandsOf(scene.curve, data.ranges.v);
-    if (bands !== box.dataset.bands) {
-      box.dataset.bands = bands;
-      box.style.setProperty("--se-bands", bands);
-    }
+    const onTrack = onSpeedTrack(scene.curve, data);
+    if (onTrack.join() === box.dataset.track) return;
+    box.dataset.track = onTrack.join();
+    box.style.setProperty("--se-bands", onTrack[0]);
+    box.style.setProperty("--se-ticks", onTrack[1]);
   };
   const describeSpeeds = () => {
     const { critical, kept } = scene.curve,
@@ -191,7 +196,7 @@ export function render(model, el) {
     if (index >= 0) changes.scheme_index = index;
     if (motion === "linear" || motion === "flying") changes.motion = motion;
     set(changes);
-    if (time === null) set({ time: momentToShow(compute()) });
+    if (time === null) set({ time: momentToShow(compute(), model.get("motion")) });
     else if (time !== undefined) set({ time: clamp(time, 0, 1) });
   };
   const stop = () => {
@@ -299,8 +304,11 @@ export function render(model, el) {
     });
     for (const v of data.asked)
       button(presets, `${plain(v)} m/s`).addEventListener("click", () => apply({ v, time: null }));
-    for (const [text, settings] of data.presets)
-      button(presets, text).addEventListener("click", () => apply({ ...initial, time: null, ...settings }));
+    const written = box.querySelectorAll("[data-preset]"); // in a built page
+    data.presets.forEach(([text, settings], i) => {
+      const choice = written[i] ?? button(presets, text);
+      choice.addEventListener("click", () => apply({ ...initial, time: null, ...settings }));
+    });
     const more = make(tools, "div", "se-more", { role: "group", "aria-label": "This picture" });
     const pin = button(more, "Pin to compare", { "aria-pressed": "false" });
     pin.addEventListener("click", () => {
@@ -350,6 +358,14 @@ export function render(model, el) {
     const fill = () =>
       menu.open && write(code, pythonOf(data, numbers(), model.get("scheme_index"), model.get("motion")));
     menu.addEventListener("toggle", fill);
+    menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || !menu.open) return;
+      menu.open = false;
+      menu.querySelector("summary").focus();
+    });
+    const leave = ({ target }) => menu.contains(target) || (menu.open = false);
+    document.addEventListener("pointerdown", leave);
+    undo.push(() => document.removeEventListener("pointerdown", leave));
     settled.push(fill, () => write(copy, "Copy the Python lines"));
     if (document.fullscreenEnabled) {
       const full = button(more, "Full screen");
@@ -360,11 +376,14 @@ export function render(model, el) {
   }
   /** What is kept of a run to compare others with. */
   function snapshot() {
-    const { run, flight, v, curve, robot, dt } = scene,
-      kept = model.get("motion") === "flying" || !run ? flight : run;
+    const { run, flight, v, curve, robot, dt, scheme, settings } = scene,
+      motion = run ? model.get("motion") : "flying",
+      kept = motion === "flying" ? flight : run;
     return {
       v,
       dt: kept.dt,
+      verdict: judge(kept),
+      words: describePinned(settings, scheme, motion, headline.textContent),
       N: kept.N.map((N) => N.slice(0, kept.J + 1)),
       least: curve.least.map((N) => N.slice()),
       z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
@@ -416,7 +435,9 @@ export function render(model, el) {
       panel.size = [Math.round(contentRect.width), Math.round(contentRect.height)];
     }
     redraw = true;
-    schedule();
+    // What is below the window when the page opens lets the others go first.
+    if (!scene && root.getBoundingClientRect().top > innerHeight) setTimeout(schedule, 100);
+    else schedule();
   });
   for (const { canvas } of panels) sizes.observe(canvas);
   calm.addEventListener("change", stop);
@@ -452,6 +473,7 @@ export function render(model, el) {
   };
   const destroy = () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(`change:${name}`, listener);
+    for (const step of undo) step();
     themes.disconnect();
     sizes.disconnect();
     calm.removeEventListener("change", stop);
@@ -468,12 +490,20 @@ export function render(model, el) {
   };
 }
 
-/** Kept and lost speeds as the background of a slider. */
-function bandsOf({ critical, kept }, [low, high]) {
-  const place = (v) => `${((100 * Math.log(v / low)) / Math.log(high / low)).toFixed(2)}%`;
-  const edges = ["0%", ...critical.map(place), "100%"];
-  const stops = edges
+/**
+ * For the slider of the speed, as backgrounds: kept and lost speeds, and ticks at the critical speeds
+ * (above) and the asked ones (below). The handle's middle goes from 10 pixels to 10 before the end.
+ */
+function onSpeedTrack({ critical, kept }, { ranges, asked }) {
+  const { toPlace } = makeScale(ranges.v);
+  const along = (v) => `calc(${(100 * toPlace(v)).toFixed(3)}% + ${(10 - 20 * toPlace(v)).toFixed(2)}px)`;
+  const edges = ["0%", ...critical.map(along), "100%"];
+  const bands = edges
     .slice(1)
     .map((edge, i) => `var(--se-${kept === (i % 2 === 0) ? "region" : "alarm"}) ${edges[i]} ${edge}`);
-  return `linear-gradient(to right, ${stops.join(", ")})`;
+  // A background's percentages leave out its own width, 2 pixels.
+  const tick = (v, end) =>
+    `linear-gradient(var(--se-soft) 0 0) calc(${(100 * toPlace(v)).toFixed(3)}% + ${(9 - 18 * toPlace(v)).toFixed(2)}px) ${end} / 2px 7px no-repeat`;
+  const ticks = [...critical.map((v) => tick(v, "top")), ...asked.map((v) => tick(v, "bottom"))];
+  return [`linear-gradient(to right, ${bands.join(", ")})`, ticks.join(", ")];
 }

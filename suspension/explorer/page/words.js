@@ -3,7 +3,7 @@
 import { show } from "./pen.js";
 
 export const WHEEL = ["rear", "front"];
-const CLOSE = 1e-5; // N; forces that differ by less are called equal
+export const CLOSE = 1e-5; // N; forces that differ by less are called equal
 
 export const unit = (x, name, digits) => `${show(x, digits)}\u00a0${name}`;
 const equals = (name, ...value) => `${name}\u00a0=\u00a0${unit(...value)}`; // on one line
@@ -34,7 +34,7 @@ export function disagrees({ run, truth, dt }) {
 }
 
 function describeRun(scene) {
-  const { run, truth, stable, scheme, dt, growths, data } = scene,
+  const { run, truth, stable, scheme, dt, growths } = scene,
     exact = truth.verdict;
   const method = `${scheme.name} at ${equals("Δt", 1000 * dt, "ms")}`,
     details = [];
@@ -43,7 +43,7 @@ function describeRun(scene) {
   let tone, headline;
   if (!run) {
     [tone, headline] = ["doubt", `${method} cannot take this step. Exactly: ${outcome(scene, exact)}.`];
-    return { tone, headline, details: details.concat(spring(scene)) };
+    return { tone, headline, details: details.concat(spring(scene, truth)) };
   }
   if (!stable) {
     tone = "doubt";
@@ -72,24 +72,24 @@ function describeRun(scene) {
         : `Its forces differ by up to ${unit(run.error, "N", 2)} from the exact ones.`,
     );
   }
-  return { tone, headline, details: details.concat(spring(scene)), data };
+  return { tone, headline, details: details.concat(spring(scene, truth)) };
 }
 
-function spring({ truth, data }) {
-  if (!truth.beyond.length) return [];
+function spring({ data }, { beyond }) {
+  if (!beyond.length) return [];
   return [
-    `From ${equals("t", truth.beyond[0][0], "s")} a spring is compressed further than it was measured (${unit(1000 * data.springEnd, "mm")}).`,
+    `From ${equals("t", beyond[0][0], "s")} a spring is compressed further than it was measured (${unit(1000 * data.springEnd, "mm")}).`,
   ];
 }
 
 function describeFlight(scene) {
-  const { flight, data } = scene,
+  const { flight } = scene,
     { events, airtime } = flight;
   if (!events.length) {
     return {
       tone: "kept",
       headline: "No wheel leaves the ground: flying and linear are the same.",
-      details: spring(scene),
+      details: spring(scene, flight),
     };
   }
   const first = events[0],
@@ -103,13 +103,19 @@ function describeFlight(scene) {
     details.push(`Hardest landing: ${wheel(scene, hardest)}, with ${unit(hardest.force, "N")} at once.`);
   details.push(`Steps of ${unit(1000 * flight.dt, "ms")}, parted where a wheel leaves or lands.`);
   const count = events.filter(({ kind }) => kind === "lift-off").length;
-  const how = count === 1 ? "once" : `${count} times`;
+  const how = ["once", "twice"][count - 1] ?? `${count} times`;
   return {
     tone: "lost",
     headline: `Off the ground ${how}, first the ${wheel(scene, first)}.`,
-    details: details.concat(spring(scene)),
-    data,
+    details: details.concat(spring(scene, flight)),
   };
+}
+
+/** What a run is, and what was said of it: for one that is kept to compare others with. */
+export function describePinned({ v, k, c, dt }, scheme, motion, headline) {
+  const how = motion === "flying" ? "flying" : `${scheme.name}, ${equals("Δt", 1000 * dt, "ms")}`;
+  const robot = `${equals("k", k, "N/m")}, ${equals("c", c, "N\u00a0s/m")}`;
+  return `Pinned, in grey at the same X: ${equals("v", v, "m/s")}, ${robot}, ${how}. ${headline}`;
 }
 
 /** The moment shown, for the clock. */
