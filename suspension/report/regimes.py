@@ -349,7 +349,7 @@ def other_readings(by_stiffness):
     where = "each of them inside the interval that belongs to the asked stiffness"
     if outside:
         where = (
-            f"and what {join(outside)} becomes is **outside** the interval of the asked stiffness"
+            f"and what becomes of {join(outside)} lies **outside** the asked stiffness's interval"
         )
     return f"By {names}, {join(words)}{SPACE}m/s, {where}."
 
