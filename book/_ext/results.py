@@ -9,6 +9,7 @@ and wherever it is quoted.
 """
 
 import json
+import re
 from pathlib import Path
 
 import nbformat
@@ -22,6 +23,7 @@ from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 logger = logging.getLogger(__name__)
 SVG = "image/svg+xml"
+FIGURE_LINK = re.compile(r"\]\([^)]*#fig-[^)]*\)")
 
 
 def notebooks_first(app, env, pages):
@@ -63,12 +65,15 @@ class ResultDirective(SphinxDirective):
     """A paragraph, a table, or a figure.
 
     A figure brings its caption and its alt text along; the content and ``:alt:`` replace them.
+    Where the page shows a figure too, ``:figure:`` is its label here, to which a sentence's link to
+    that figure then leads.
     """
 
     required_arguments = 1
     has_content = True
     option_spec = {  # noqa: RUF012
         "alt": directives.unchanged_required,
+        "figure": directives.unchanged_required,
         "name": directives.unchanged_required,
     }
 
@@ -87,7 +92,10 @@ class ResultDirective(SphinxDirective):
         if "text/html" in data:
             table = nodes.raw("", data["text/html"], format="html")
             return [nodes.container("", table, classes=["pst-scrollable-table-container"])]
-        return self.parse(data.get("text/markdown") or data["text/plain"])
+        text = data.get("text/markdown") or data["text/plain"]
+        if "figure" in self.options:
+            text = FIGURE_LINK.sub(f"](#{self.options['figure']})", text)
+        return self.parse(text)
 
     def parse(self, text):
         """Markdown to nodes."""

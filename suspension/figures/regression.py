@@ -25,7 +25,7 @@ def plot_fit(fit, data, level=0.95, ax=None):
     mean = fit.results.get_prediction(np.vander(x, 3, increasing=True))
     low, high = mean.conf_int(alpha=1 - level).T
     ax.fill_between(
-        x, low, high, color="C5", alpha=0.5, lw=0, label=f"{level:.0%} band of the mean"
+        x, low, high, color="C5", alpha=0.5, lw=0, label=f"{100 * level:g} % band of the mean"
     )
     ax.plot(x, mean.predicted, color="C0", label="least-squares fit")
     ax.plot(data["delta_over_delta_max"], data["force"], "o", color="C1", mfc="none", label="data")

@@ -52,7 +52,9 @@ def plot_near_zero(scheme, eigenvalues, dts, ax):
     _draw_region(inset, scheme, (-width, width, -height, height))
     _draw_points(inset, z, smallest, None)
     inset.set_title(rf"near zero: $\Delta t = {dts[smallest]:g}$ s", weight="normal", size=8.5)
-    inset.locator_params(nbins=4)
+    inset.locator_params(axis="y", nbins=4)
+    tick = float(f"{0.6 * width:.1g}")
+    inset.set_xticks([-tick, tick])  # two, which do not run into each other on a phone
     inset.tick_params(labelsize=7.5)
     ax.indicate_inset_zoom(inset, edgecolor="0.4")
     ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1))
@@ -77,7 +79,7 @@ def _draw_points(ax, z, k, label):
 
 
 def plot_growth(amplitude, growth, names, ax=None):
-    """Amplitude of each mode step by step, beside the growth ``|R(lambda dt)|^n`` predicted.
+    """Amplitude of each mode step by step, beside the growth ``|R(lambda dt)|^j`` predicted.
 
     Parameters
     ----------
@@ -89,11 +91,11 @@ def plot_growth(amplitude, growth, names, ax=None):
         What the modes are called.
     """
     ax = axes_or_new(ax)
-    n = np.arange(np.shape(amplitude)[1])
+    j = np.arange(np.shape(amplitude)[1])
     for k, (a, r, name) in enumerate(zip(amplitude, growth, names)):
-        ax.semilogy(n, a, MARKERS[k], color=f"C{k}", mfc="none", label=f"{name}, computed")
+        ax.semilogy(j, a, MARKERS[k], color=f"C{k}", mfc="none", label=f"{name}, computed")
         factor = f"{r:.0f}" if r >= 100 else f"{r:.3g}"
-        ax.semilogy(n, a[0] * r**n, color=f"C{k}", lw=1, label=rf"$|R|^n$, $|R|$ = {factor}")
-    ax.set(xlabel="step $n$", ylabel="amplitude of the mode")
+        ax.semilogy(j, a[0] * r**j, color=f"C{k}", lw=1, label=rf"$|R|^j$, $|R|$ = {factor}")
+    ax.set(xlabel="step $j$", ylabel="amplitude of the mode")
     ax.legend()
     return ax

@@ -42,6 +42,7 @@ __all__ = [
     "later",
     "matrix",
     "modes",
+    "phase_error",
     "road_caption",
     "stability",
     "stability_figure",
@@ -113,8 +114,8 @@ def road_caption(speeds):
     more = number(fast / slow, 2)
     text = (
         f"What a wheel feels of the bump at {slow:g} and at {fast:g}{SPACE}m/s: the height (left) "
-        f"and its rate of change (right). With {more} times the speed the height passes in a "
-        f"fraction of 1/{more} of the time, and the rate is {more} times as large."
+        f"and its rate of change (right). With {more} times the speed the height passes in "
+        f"1/{more} of the time, and the rate is {more} times as large."
     )
     alt = (
         "Two panels against time. Left, the height under a wheel: a hill for each speed, equally "
@@ -217,7 +218,10 @@ def _change(runs):
     return (
         f"*Does it change appreciably? {verdict.capitalize()}*: halving the step changes "
         rf"$\tilde\theta(t_\text{{final}})$ by {quantity(change, 'rad', 2)}, "
-        f"{percent(relative)} of the largest pitch."
+        f"{percent(relative)} of the largest pitch and "
+        f"{percent(change / abs(runs[1].W[2, -1]))} of the value at that instant. The first is "
+        "the yardstick: the pitch swings through zero, and beside a value near zero every change "
+        "looks large."
     )
 
 
@@ -240,6 +244,35 @@ def _factor(at_end, overall, part, expected):
     if end_fits:
         return f"{question} Not over the whole run*: {end}, but {run}; {promise}."
     return f"{question} No*: {end} and {run}, where {promise}; the steps are too long for that."
+
+
+def phase_error(robot, run, exact):
+    """When the error of the pitch is largest: between a growing lag and a swing that dies away.
+
+    Parameters
+    ----------
+    robot : Robot
+    run : Trajectory
+        On flat ground, let go with a tilt.
+    exact : array_like, shape (J+1,)
+        Exact pitch at its times, rad.
+    """
+    pitch = [k for k in range(4) if mode_name(robot, k) == "pitch"]
+    decay = -robot.eigenvalues[pitch[0]].real
+    error = np.abs(run.W[2] - exact)
+    found = (
+        rf"the largest error of the run with $\Delta t$ = {run.dt:g}{SPACE}s is "
+        f"{quantity(error.max(), 'rad')}, at {fixed(run.T[error.argmax()], 2)}{SPACE}s"
+    )
+    if decay < 1e-9:
+        return f"Here nothing dies away, and the error grows to the end: {found}."
+    end = quantity(run.T[-1], "s", 1)
+    if decay * run.T[-1] < 1:
+        return rf"Here $1/\beta$ is longer than the {end} of the run, and the lag wins: {found}."
+    return (
+        rf"Here $1/\beta$ = {fixed(1 / decay, 2)}{SPACE}s, and {found}. At {end} it is "
+        f"{quantity(error[-1], 'rad')}."
+    )
 
 
 def forces_figure(runs):

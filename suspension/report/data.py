@@ -21,6 +21,7 @@ __all__ = [
     "hindsight",
     "made_sentence",
     "read_sentence",
+    "slope_sentence",
     "source_sentence",
     "speed_digits",
     "stiffness_rows",
@@ -44,17 +45,21 @@ def source_sentence(data):
 
 
 def read_sentence(data, fit):
-    """What was read: file, points, ranges, unit, slope, and what the reader noticed."""
+    """What was read: file, points, ranges, unit, and what the reader noticed."""
     x, force = data["delta_over_delta_max"], data["force"]
     sentence = (
         f"Read from `{data.attrs['source']}`: {count(len(data), 'reading')}, "
         f"$\\delta/\\delta_{{\\max}}$ from {_end(x.min())} to {_end(x.max())} "
         f"with $\\delta_{{\\max}}$ = {quantity(1000 * fit.delta_max, 'mm')}, forces from "
-        f"{_end(force.min())} to {_end(force.max())}{SPACE}N for the pair of springs. The fitted "
-        f"slope at zero is {quantity(fit.stiffness, 'N/m', 4)}."
+        f"{_end(force.min())} to {_end(force.max())}{SPACE}N for the pair of springs."
     )
     notes = data.attrs.get("notes", ())
     return sentence + (f" The reader noticed: {join(notes)}." if notes else "")
+
+
+def slope_sentence(fit):
+    """The stiffness that follows from the readings."""
+    return f"The fitted slope at zero is {quantity(fit.stiffness, 'N/m', 4)}."
 
 
 def _end(x):

@@ -219,8 +219,8 @@ def _neighbours(fit, points):
 def experiments_figure(shown, missed):
     """Caption of the boxes of repeated experiments, `missed` of which do not hold the truth."""
     text = (
-        f"The joint boxes (p = 2) of {shown} invented experiments with the same truth (cross). "
-        f"{count(missed, 'box misses', 'boxes miss').capitalize()} it (thick, orange)."
+        f"The joint boxes (p{SPACE}={SPACE}2) of {shown} invented experiments with the same truth "
+        f"(cross). {count(missed, 'box misses', 'boxes miss').capitalize()} it (thick, orange)."
     )
     alt = (
         f"{shown} overlapping rectangles in the plane of preload and curvature around a cross; "
@@ -240,23 +240,30 @@ def coverage(shares, experiments, level=0.95):
         How many there were.
     """
     spread = math.sqrt(level * (1 - level) / experiments)  # of a share that is `level` in truth
+    shares = {name.replace(" = ", f"{SPACE}={SPACE}"): share for name, share in shares.items()}
     rows = [
         {"intervals": name, "both right in": percent(share, 3)} for name, share in shares.items()
     ]
     kept = [name for name, share in shares.items() if share >= level - 3 * spread]
     broken = [name for name in shares if name not in kept]
-    promise = (
-        f"Of {experiments:,} experiments (a count that is itself known to ±{percent(spread, 1)})"
-    )
+    counted = f"Of {experiments:,} experiments (standard error of the count: {percent(spread, 1)})"
+    promise = f"kept the promise of {percent(level)}"
     if not broken:
-        verdict = f"every kind of interval kept the promise of {percent(level)}."
+        verdict = f"every kind of box {promise}."
+    elif not kept:
+        verdict = f"no kind of box {promise}."
     else:
         verdict = (
-            f"{join(kept)} kept the promise of {percent(level)} for both coefficients at once, "
-            f"{join(broken)} did not."
+            f"{_boxes(kept)} {promise} for both coefficients at once; {_boxes(broken)} did not."
         )
     more = "A box does better than the ellipse it is made of: it is larger, its corners come free."
-    return f"{table(rows)}\n\n{promise}, {verdict} {more}"
+    return f"{table(rows)}\n\n{counted}, {verdict} {more}"
+
+
+def _boxes(names):
+    """``the joint and the one-at-a-time boxes``."""
+    kinds = [name.replace("one at a time", "one-at-a-time") for name in names]
+    return f"the {join(kinds)} boxes"
 
 
 def summary(fit):

@@ -51,11 +51,16 @@ def verdict(run, compression):
         "contact": "lost" if loss else "kept",
         "wheel": WHEEL[loss.wheel] if loss else "–",
         "at t (s)": seconds(loss.t, run.dt) if loss else "–",
-        "at X (m)": seconds(run.v * loss.t, run.v * run.dt) if loss else "–",
+        "at X (m)": _place(run.v * loss.t, run.v * run.dt) if loss else "–",
         "least $N_1$ (N)": _least(run, 0),
         "least $N_2$ (N)": _least(run, 1),
         r"largest $\delta/\delta_{\max}$": fixed(compression, 2),
     }
+
+
+def _place(x, spacing):
+    """A place read from samples, no finer than they are: 1.2 mm apart, in whole millimetres."""
+    return fixed(x, max(0, math.ceil(-math.log10(spacing) - 1e-9)))
 
 
 def _least(run, wheel):
@@ -121,11 +126,17 @@ def stability_rows(scheme, eigenvalues, dts):
     return [
         {
             r"$\Delta t$ (s)": f"{dt:g}",
-            r"$\max_k \lvert R(\lambda_k\Delta t)\rvert$": fixed(r, 6) if r < 100 else number(r, 4),
+            r"$\max_k \lvert R(\lambda_k\Delta t)\rvert$": _growth(r),
             "absolutely": "**stable**" if scheme.is_stable(eigenvalues, dt) else "**unstable**",
         }
         for dt, r in zip(dts, growth)
     ]
+
+
+def _growth(r):
+    """Growth per step in four digits, or in more if these hide on which side of 1 it is."""
+    digits = next((n for n in (4, 6, 9) if float(f"{r:.{n - 1}e}") != 1), 4)
+    return number(r, digits)
 
 
 def error_rows(runs, theta):

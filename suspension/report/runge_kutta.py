@@ -13,8 +13,6 @@ from suspension.report.verdicts import (
     forces_plot,
     lost_sentence,
     same_verdicts,
-    spring_sentence,
-    table_note,
     verdict_table,
 )
 from suspension.report.words import SPACE, Caption, count, fixed, join, number, percent, quantity
@@ -40,6 +38,7 @@ __all__ = [
 ]
 
 PAGE = "03-runge-kutta"
+QUESTION_6 = "../notebooks/02-crank-nicolson.ipynb#question-6-over-the-bump"
 ROUNDOFF = 1e-9  # a mode whose amplitude grows by less has kept it
 
 
@@ -329,7 +328,7 @@ def forces_plots(runs):
     return forces_plot(runs, PAGE, "fig-rk4-forces")
 
 
-def contact(runs, others, compression, robot, fit):
+def contact(runs, others, compression):
     """Answer 10(i): where contact is lost, and whether Part II says the same.
 
     Parameters
@@ -338,17 +337,16 @@ def contact(runs, others, compression, robot, fit):
         By RK4, and by Crank-Nicolson.
     compression : sequence of float
         Largest compression of a spring in each while both wheels press, over delta_max.
-    robot : Robot
-    delta_max : float
-        Largest displacement at which the spring was measured, m.
     """
     agree = "agree" if same_verdicts(runs, others) else "do **not** agree"
+    noted = "of the spring"
+    if any(run.loss for run in runs):
+        noted += " and of the forces “after” a loss"
     parts = [
         lost_sentence(runs),
         verdict_table(runs, compression),
         f"The verdicts {agree} with those of Part II for the {count(len(runs), 'speed')}; the "
-        f"least forces differ by {change_words(runs, others)}.",
-        spring_sentence(runs, compression, robot, fit),
-        table_note(runs),
+        f"least forces differ by {change_words(runs, others)}. What is said {noted} in "
+        f"[Question 6]({QUESTION_6}) holds here as well.",
     ]
     return "\n\n".join(parts)

@@ -41,6 +41,7 @@ from suspension.figures import (
     plot_stability,
     plot_travel,
 )
+from suspension.figures.layout import narrow
 from suspension.flight import fly
 from suspension.road import GaussianBump
 from suspension.robot import Robot
@@ -109,7 +110,7 @@ ON_TWO = {
     "plot_missed_dip": lambda axes: plot_missed_dip(T, DIP, T[::10], DIP[::10], axes),
     "plot_travel": lambda axes: plot_travel(V, 0.01 + 0 * V, 0.1 + 0 * V, 0.0165, axes),
 }
-PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $n$", "amplitude of the mode"]
+PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $j$", "amplitude of the mode"]
 PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
 PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
@@ -268,6 +269,21 @@ def test_the_points_of_the_smallest_step_are_enlarged_in_an_inset():
     assert left < z.real.min() and 0 < right and low < z.imag.min() and z.imag.max() < high
     assert "0.001" in title(inset)
     ax.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("k", [250, 800, 2300])
+def test_the_ticks_of_the_enlarged_place_do_not_touch_on_a_phone(k):
+    z = Robot(k, k).eigenvalues
+    ax = plot_stability(CRANK_NICOLSON, z, [0.2, 0.1, 0.001])
+    inset = plot_near_zero(CRANK_NICOLSON, z, [0.2, 0.1, 0.001], ax)
+    narrow(ax.figure).canvas.draw()
+    left, right = (tick.get_window_extent() for tick in inset.get_xticklabels())
+    assert left.x1 + 5 < right.x0
+
+
+def test_a_percentage_in_a_legend_has_its_space():
+    texts = [text.get_text() for text in plot_fit(FIT, DATA).get_legend().get_texts()]
+    assert "95 % band of the mean" in texts
 
 
 def test_growth_starts_where_the_run_does():

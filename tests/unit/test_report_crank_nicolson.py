@@ -1,5 +1,6 @@
 """Sentences of Part II, for springs and robots of every kind."""
 
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -99,6 +100,40 @@ def test_halving_the_step_answers_yes_or_no(k):
     assert "appreciably? No*" in text
     assert "expected factor? Yes" in text
     assert not faults(part.final_pitch(runs, theta[0][-1]))
+
+
+def test_a_change_is_held_against_the_largest_pitch_and_against_its_value():
+    runs, theta = zip(*(released(Robot(793, 793), dt) for dt in (0.001, 0.0005)))
+    text = part.halving(runs, theta)
+    change, value = abs(runs[0].W[2, -1] - runs[1].W[2, -1]), abs(runs[1].W[2, -1])
+    of_largest, of_value = re.search(
+        r"([\d.]+)\s% of the largest .* ([\d.]+)\s% of the value", text
+    ).groups()
+    assert float(of_largest) == pytest.approx(1000 * change, rel=0.02)
+    assert float(of_value) == pytest.approx(100 * change / value, rel=0.02)
+
+
+@pytest.mark.parametrize("k", STIFFNESSES)
+def test_the_error_is_largest_where_the_lag_has_grown_and_the_swing_not_yet_died_away(k):
+    robot = Robot(k, k)
+    run, theta = released(robot, 0.001)
+    text = part.phase_error(robot, run, theta)
+    assert not faults(text)
+    predicted, found = map(
+        float, re.findall(r"([\d.]+)\ss\b(?! is)", text.replace("0.001", ""))[:2]
+    )
+    assert predicted == pytest.approx(robot.Izz / robot.c1 / robot.L1**2, abs=0.005)
+    assert abs(found - predicted) < 0.5 * np.pi / robot.eigenvalues.imag.max()
+
+
+def test_without_enough_damping_the_lag_wins():
+    robot = ROBOTS["undamped"]
+    run, theta = released(robot, 0.001)
+    assert "nothing dies away" in part.phase_error(robot, run, theta)
+    robot = Robot(793, 793, c1=0.3, c2=0.3)
+    run, theta = released(robot, 0.001)
+    text = part.phase_error(robot, run, theta)
+    assert "the lag wins" in text and not faults(text)
 
 
 def test_one_instant_is_told_from_the_whole_run():

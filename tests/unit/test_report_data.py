@@ -54,6 +54,7 @@ def test_no_sentence_about_any_spring_is_broken(name):
     sentences = [
         words.source_sentence(data),
         words.read_sentence(data, fit),
+        words.slope_sentence(fit),
         words.made_sentence(data),
         words.stiffness_sentence(fit, LOAD),
         table(words.data_rows(data)),
@@ -61,7 +62,7 @@ def test_no_sentence_about_any_spring_is_broken(name):
     ]
     for text in sentences:
         assert text and not re.search(r"nan|None|\binf|e[+-]\d\d|\d\.\d{6}|  |-\d", text), text
-    for text in sentences[:4]:
+    for text in sentences[:5]:
         assert text.endswith(".") and ".." not in text
     assert "synthetic:" not in " ".join(sentences)
     assert words.synthetic_note(data) == "" and words.hindsight(data, fit) == ""
@@ -77,7 +78,8 @@ def test_synthetic_data_are_called_so_and_explained(synthetic):
     read = words.read_sentence(synthetic, fit)
     assert read.startswith("Read from `spring_data.csv`: 21 readings,")
     assert "from 0 to 1" in read and "16.5\u00a0mm" in read
-    assert "−0.12 to 13.28\u00a0N" in read and "792.9\u00a0N/m" in read
+    assert "−0.12 to 13.28\u00a0N" in read
+    assert "792.9\u00a0N/m" in words.slope_sentence(fit) and "slope" not in read
     assert words.data_rows(synthetic)[:2] == [
         {r"$\delta/\delta_{\max}$": "0.00", "force (N)": "−0.12"},
         {r"$\delta/\delta_{\max}$": "0.05", "force (N)": "0.58"},

@@ -51,6 +51,32 @@ def test_a_time_has_the_resolution_of_the_samples(dt, decimals):
     assert len(row["at t (s)"].partition(".")[2]) == decimals
 
 
+def test_a_place_is_no_finer_than_the_samples():
+    samples = [(1.2, 0.001, 3), (5, 0.001, 3), (10, 0.001, 2)]  # 1.2, 5 and 10 mm apart
+    for v, dt, decimals in samples:
+        place = rows.verdict(drive(Robot(1000, 1000), v, dt), 1.2)["at X (m)"]
+        assert len(place.partition(".")[2]) == decimals
+
+
+def test_growth_has_four_digits_unless_they_hide_the_verdict():
+    class Method:
+        def __init__(self, growth):
+            self.growth = growth
+
+        def stability_function(self, z):
+            return self.growth + 0 * z
+
+        def is_stable(self, eigenvalues, dt):
+            return self.growth <= 1
+
+    def shown(growth):
+        row = rows.stability_rows(Method(growth), np.ones(2), [0.1])[0]
+        return row[r"$\max_k \lvert R(\lambda_k\Delta t)\rvert$"]
+
+    assert [shown(r) for r in (139.41, 6.3125, 0.99897, 1)] == ["139.4", "6.312", "0.9990", "1.000"]
+    assert shown(1.00004) == "1.00004" and shown(0.9999996) == "0.999999600"
+
+
 def test_matrix_entries_are_plain_numbers():
     text = rows.table(rows.matrix_rows(ROBOT.A))
     assert not faults(text)
