@@ -12,7 +12,7 @@ from suspension.forces import WHEEL
 __all__ = ["plot_margin", "plot_margin_map", "plot_sensitivities", "plot_travel"]
 
 
-def _speed_axis(ax, v):
+def speed_axis(ax, v):
     ticks = [x for x in (0.1, 0.25, 0.5, 1.2, 2.5, 5, 10, 20, 30) if v[0] <= x <= v[-1]]
     ax.set_xscale("log")
     ax.set_xticks(ticks, [f"{x:g}" for x in ticks])
@@ -57,7 +57,7 @@ def plot_margin(v, N, critical, asked=(), beyond=(), ax=None):
     """
     ax = axes_or_new(ax)
     margin = np.min(N, axis=0)
-    _speed_axis(ax, v)
+    speed_axis(ax, v)
     edges = [v[0], *critical, v[-1]]
     above = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
     for left, right in pairwise(edges):
@@ -115,7 +115,7 @@ def plot_margin_map(v, k, margin, fitted, interval, asked=(), beyond=None, ax=No
     ax.axhspan(*interval, color="0.2", alpha=0.18, lw=0)
     ax.axhline(fitted, color="0.2", lw=1, ls="--")
     ax.plot(asked, [fitted] * len(asked), "o", color="k", mfc="white", ms=6)
-    _speed_axis(ax, v)
+    speed_axis(ax, v)
     ax.grid(False)
     ax.set(ylabel="stiffness $k$ (N/m)", ylim=(k[0], k[-1]))
     ax.figure.colorbar(filled, ax=ax, label="margin (N)")
@@ -170,5 +170,5 @@ def plot_travel(v, compression, pitch, delta_max, axes):
     axes[1].semilogx(v, np.degrees(pitch))
     axes[1].set(ylabel="pitch (degrees)", ylim=(0, None))
     for ax in axes:
-        _speed_axis(ax, v)
+        speed_axis(ax, v)
     return axes
