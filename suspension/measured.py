@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 MAX_WORK = 3 * 10**8  # cases times steps: half a minute and more
-FEWEST = 1250  # steps of a run, a millimetre each
+FEWEST = 1000  # steps of a run, 23 for each sigma of the problem's bump
 ALL_ROUND = 2.5  # RK4 is stable where |z| is smaller and Re z <= 0
 ON_THE_STOP = 2  # steps within the longest one that is stable on the stop
 SETTLED = 1e-3  # relative change of a critical speed in the last step
@@ -44,8 +44,7 @@ class SpringLaw:
 
     With ``x = delta / delta_max`` and x' the nearest point to x in [0, 1],
 
-    ``F = beta0 + beta1 x' + beta2 x'^2 + (beta1 + 2 beta2 x') (x - x') + stop max(0, delta -
-    delta_max)``:
+    ``F = beta0 + beta1 x + beta2 x' (2 x - x') + stop max(0, delta - delta_max)``:
 
     the parabola of Eq. 9 inside, its end tangents outside, and the stop on top.
 
@@ -117,12 +116,11 @@ class SpringLaw:
     def force(self, delta):
         """Force in N at compressions `delta` in m; shapes broadcast."""
         x = np.asarray(delta) / self.delta_max
-        inside = np.minimum(np.maximum(x, 0), 1)
-        outside = x - inside
-        bend = self.beta2 * inside
-        parabola = self.beta0 + inside * (self.beta1 + bend)
-        tangents = (self.beta1 + 2 * bend) * outside
-        return parabola + tangents + self.stop * self.delta_max * np.maximum(outside, 0)
+        nearest = np.minimum(np.maximum(x, 0), 1)
+        force = self.beta0 + self.beta1 * x + self.beta2 * nearest * (2 * x - nearest)
+        if self.stop.any():
+            force = force + self.stop * self.delta_max * np.maximum(x - 1, 0)
+        return force
 
     def tangent(self, delta):
         """Slope dF/ddelta in N/m; at the stop, where it jumps, that beyond it."""
@@ -312,10 +310,11 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
 
     Notes
     -----
-    A run takes 1250 steps of a millimetre, or as many as keep its time step below half of the
-    largest one at which RK4 is stable on the stop. A least force between two samples is that of
-    the parabola through three of them. After a loss the ground pulls, as in Part V, so that the
-    margin is a continuous function of the speed; only its sign has a meaning then.
+    A run takes 1000 steps of equal length. One that reaches the stop is done again with as many as
+    keep its time step below half of the largest one at which RK4 is stable on it. A least force
+    between two samples is that of the parabola through three of them. After a loss the ground
+    pulls, as in Part V, so that the margin is a continuous function of the speed; only its sign has
+    a meaning then.
 
     Examples
     --------
@@ -341,21 +340,30 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
         np.broadcast_to(law.stop, shape).ravel(),
     )
     found = np.empty((len(Drive._fields), v.size))
-    if not v.size:
-        return Drive(*found.reshape(-1, *shape))
-    steps = np.maximum(FEWEST, ON_THE_STOP * COURSE / (v * _longest_steps(robot, law)))
-    steps = np.ceil(fine * steps)
+    touched = np.ones(v.size, dtype=bool)
+    steps = np.full(v.size, np.ceil(fine * FEWEST))
+    if v.size:
+        _refuse(steps)
+        free = SpringLaw(law.beta0, law.beta1, law.beta2, law.delta_max)
+        found[:], deepest = _runs(robot, free, road, v, int(steps[0]), small)
+        touched = (law.stop > 0) & (deepest > law.delta_max)
+    steps = np.maximum(steps, ON_THE_STOP * fine * COURSE / (v * _longest_steps(robot, law)))
+    _refuse(steps[touched])
+    # Runs of similar length side by side, each group as long as its longest.
+    group = np.floor(np.log2(steps / FEWEST))
+    for number in np.unique(group[touched]):
+        some = np.flatnonzero(touched & (group == number))
+        longest = int(np.ceil(steps[some].max()))
+        found[:, some], _ = _runs(robot, law[some], road, v[some], longest, small)
+    return Drive(*found.reshape(-1, *shape))
+
+
+def _refuse(steps):
     if not steps.sum() <= MAX_WORK:
         raise ValueError(
-            f"v must not be so low, or fine so large, that all runs together take more than "
-            f"{MAX_WORK:.0e} steps, got {steps.sum():.2g}"
+            f"v must not be so low or so many, law's stop so stiff, or fine so large, that all "
+            f"runs together take more than {MAX_WORK:.0e} steps, got {steps.sum():.2g}"
         )
-    # Cases of similar length together, each group as long as its longest.
-    group = np.floor(np.log2(steps / steps.min()))
-    for number in np.unique(group):
-        some = np.flatnonzero(group == number)
-        found[:, some] = _runs(robot, law[some], road, v[some], int(steps[some].max()), small)
-    return Drive(*found.reshape(-1, *shape))
 
 
 def _longest_steps(robot, law):
@@ -372,7 +380,10 @@ def _longest_steps(robot, law):
 
 
 def _runs(robot, law, road, v, steps, small):
-    """The rows of a `Drive` for n cases with the same number of steps, shape (5, n)."""
+    """The rows of a `Drive` for n runs of so many steps, and the largest compressions, m.
+
+    Shapes (5, n) and (n,); the compressions are those of the whole run, after a loss as well.
+    """
     ground, motion = _ground(robot, road, small), _motion(robot, law, small)
     dX, dt = COURSE / steps, COURSE / (v * steps)
     if small:  # all cases see the same road, at the ends and in the middle of every step
@@ -386,14 +397,16 @@ def _runs(robot, law, road, v, steps, small):
     least = np.full((2, v.size), np.inf)
     lost = np.full(v.size, np.inf)
     compression, extension, pitch = np.full(v.size, -np.inf), np.zeros(v.size), np.zeros(v.size)
+    deepest = compression.copy()
     before = middle = least
     for j in range(steps + 1):
         g1, N, p = rate(w, 2 * j)
         pressing = np.isinf(lost)
         lost[pressing & (N <= 0).any(axis=0)] = j * dX
-        compression = np.where(pressing, np.maximum(compression, p.max(axis=0)), compression)
-        extension = np.where(pressing, np.maximum(extension, -p.min(axis=0)), extension)
-        pitch = np.where(pressing, np.maximum(pitch, np.abs(w[2])), pitch)
+        deepest = np.maximum(deepest, np.maximum(p[0], p[1]))
+        np.copyto(compression, deepest, where=pressing)
+        np.maximum(extension, -np.minimum(p[0], p[1]), out=extension, where=pressing)
+        np.maximum(pitch, np.abs(w[2]), out=pitch, where=pressing)
         least = np.minimum(least, N)
         dips = (middle < before) & (middle <= N)
         if dips.any() and j > 1:
@@ -409,10 +422,11 @@ def _runs(robot, law, road, v, steps, small):
     if not np.isfinite(w).all():
         raise ValueError("road must be so smooth that a run stays finite")
     margin = least.min(axis=0)
-    return np.array([margin, np.where(margin > 0, np.inf, lost), compression, extension, pitch])
+    lost[margin > 0] = np.inf
+    return np.array([margin, lost, compression, extension, pitch]), deepest
 
 
-def zero_speeds(robot, law, road, v, *, zooms=2, small=True):
+def zero_speeds(robot, law, road, v, *, zooms=1, small=True):
     """The speeds at which the margin changes its sign between samples: critical speeds.
 
     Parameters

@@ -67,11 +67,10 @@ def law_caption(fit, at_rest, farthest):
         else "Four laws for one spring. They differ where it was never measured (grey), and the "
         "robot does not go there."
     )
-    low, high = fit.beta.min(), fit.beta.max()
     alt = (
         "Force against displacement over delta_max: the readings, a line, the fitted parabola with "
         "its end tangents, and the parabola with a rubber and with a metal stop, which turn up "
-        f"steeply at 1. Coefficients from {number(low)} to {number(high)}{SPACE}N. Marked are the "
+        f"steeply at 1, where the parabola is at {number(fit.beta.sum())}{SPACE}N. Marked are the "
         f"displacement at rest, {fixed(at_rest, 2)}, and the farthest that the line is driven to, "
         f"{fixed(farthest, 2)}."
     )
@@ -196,8 +195,8 @@ def tilted_sentence(critical, tilted):
     """What the true geometry does to the critical speeds of the parabola, m/s."""
     if len(critical) != len(tilted):
         return (
-            rf"With $\sin\theta$ the parabola has {count(len(tilted), 'critical speed')} instead of "
-            f"{len(critical)}."
+            rf"With $\sin\theta$ the parabola has {count(len(tilted), 'critical speed')} "
+            f"instead of {len(critical)}."
         )
     if not len(critical):
         return r"With $\sin\theta$ the parabola has no critical speed either."
@@ -241,14 +240,15 @@ def survival_sentence(critical):
         parts = []
         if there:
             moved = max(abs(w / v - 1) for v, w in there)
-            which = "all of them" if not gone else speed_list([v for v, _ in there])
-            shift = f"moved by at most {percent(moved)}" if moved > 1e-9 else "where they were"
-            parts.append(f"has {which}, {shift}")
+            which = "all of them stay" if not gone else f"{speed_list([v for v, _ in there])} stays"
+            which = which.replace("stays", "stay") if len(there) > 1 else which
+            shift = f", moved by at most {percent(moved)}" if moved > 1e-9 else ""
+            parts.append(which + shift)
         if gone:
-            parts.append(f"has nothing at {speed_list(gone)}" if there else "has none of them")
+            parts.append(f"there is none at {speed_list(gone)}" if there else "none of them stays")
         if new:
-            parts.append(f"and others at {speed_list(new)}")
-        words.append(f"*{name.capitalize()}* {', '.join(parts)}.")
+            parts.append(f"there are others, at {speed_list(new)}")
+        words.append(f"*{name.capitalize()}*: {'; '.join(parts)}.")
     return " ".join(words)
 
 
@@ -305,8 +305,8 @@ def run_caption(v, shown, delta_max):
 def stiffness_caption(ratio, margins):
     """Caption of the margin over the stiffness of the stop."""
     text = (
-        "The margin at the asked speeds against the stiffness of the stop, from as soft as the "
-        "spring to a hundred thousand times as stiff. Dotted: the two stops of this part. The axis "
+        "The margin at the asked speeds against the stiffness of the stop, from a tenth of the "
+        "spring's to ten thousand times as stiff. Dotted: the two stops of this part. The axis "
         "of the force is linear up to 10 N, logarithmic beyond."
     )
     each = join(
@@ -429,7 +429,7 @@ def cost_table(rows):
         [
             {
                 "method": row["method"],
-                "stop, of $k$": number(row["stop"], 3),
+                "stop, of $k$": _times(row["stop"]),
                 "steps": row["steps"],
                 "evaluations": row["evaluations"],
                 "linear systems": row["solves"],
@@ -438,6 +438,11 @@ def cost_table(rows):
             for row in rows
         ]
     )
+
+
+def _times(ratio):
+    """A power of ten as a factor."""
+    return number(ratio, 1 if ratio > 1e4 else 4)
 
 
 def _error(row):
@@ -455,7 +460,7 @@ def cost_sentence(rows):
         for row in rows:
             if row["stop"] == stop:
                 pairs.setdefault(row["steps"], {})[row["method"]] = row
-        name = f"With a stop of {number(stop, 3)} times the spring"
+        name = f"With a stop of {_times(stop)} times the spring"
         broken = [J for J, pair in pairs.items() if not pair["RK4"]["stable"]]
         both = [J for J in pairs if J not in broken]
         parts = []
@@ -471,9 +476,7 @@ def cost_sentence(rows):
                 if pairs[J]["RK4"]["error"] <= pairs[J]["Crank-Nicolson"]["error"]
             ]  # fmt: skip
             price = np.mean([pairs[J]["Crank-Nicolson"]["solves"] / J for J in both])
-            which = "in every stable case" if len(better) == len(both) else (
-                f"in {count(len(better), 'case')} of {len(both)}" if better else "in no stable case"
-            )  # fmt: skip
+            which = f"with {join(better)} steps" if better else "in no stable case"
             parts.append(
                 f"RK4 is the more accurate {which}, and Crank-Nicolson solves "
                 f"{fixed(price, 1)} linear systems a step"
@@ -712,8 +715,8 @@ def conclusions(asked, runs, drawn, critical, delta_max):
         )
     if touched:
         sentences.append(
-            f"Before anyone drives at {speed_list(touched)}, press the spring on to its stop and "
-            "measure where that is and how stiff: a few readings there are worth more than a "
+            f"Before anyone relies on a run at {speed_list(touched)}, press the spring on to its "
+            "stop and measure where that is and how stiff: a few readings there are worth more than a "
             "hundred below."
         )
     else:
