@@ -34,7 +34,6 @@ MAX_WORK = 3 * 10**8  # cases times steps: half a minute and more
 FEWEST = 1000  # steps of a run, 23 for each sigma of the problem's bump
 ALL_ROUND = 2.5  # RK4 is stable where |z| is smaller and Re z <= 0
 ON_THE_STOP = 2  # steps within the longest one that is stable on the stop
-SETTLED = 1e-3  # relative change of a critical speed in the last step
 REACH = 1.3  # a critical speed is looked for within this factor of where it was
 
 
@@ -321,7 +320,7 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
     >>> from suspension.road import GaussianBump
     >>> law = SpringLaw(0, 13.2, 0, 0.0165, stop=[0, 8000])
     >>> drive(Robot(800, 800), law, GaussianBump(), 10).margin.round(1)
-    array([  1.7, -28. ])
+    array([  1.7, -28.2])
     """
     _checks.instance("law", law, SpringLaw)
     fine, v = _checks.positive("fine", fine), _checks.array("v", v)
@@ -355,7 +354,7 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
         some = np.flatnonzero(touched & (group == number))
         longest = int(np.ceil(steps[some].max()))
         found[:, some], _ = _runs(robot, law[some], road, v[some], longest, small)
-    return Drive(*found.reshape(-1, *shape))
+    return Drive(*found.reshape(len(Drive._fields), *shape))
 
 
 def _refuse(steps):
@@ -454,15 +453,26 @@ def zero_speeds(robot, law, road, v, *, zooms=1, small=True):
     margins = drive(robot, law, road, v, small=small).margin
     j = np.flatnonzero(margins[:-1] * margins[1:] < 0)
     ends, values = np.log([v[j], v[j + 1]]), np.array([margins[j], margins[j + 1]])
-    for _ in range(zooms if len(j) else 0):
+    return np.exp(_zeros_between(robot, law, road, ends, values, zooms, small)), margins
+
+
+def _zeros_between(robot, law, road, ends, values, zooms, small):
+    """Zeros of the margin in ln v between `ends` at which it has `values` of unlike sign.
+
+    Parameters
+    ----------
+    law : SpringLaw
+        One law, or one for each zero.
+    ends, values : ndarray, shape (2, n)
+    """
+    for _ in range(zooms if ends.size else 0):
         finer = np.linspace(*ends, 9)
         inside = drive(robot, law, road, np.exp(finer[1:-1]), small=small).margin
         inside = np.vstack([values[:1], inside, values[1:]])
         first = np.argmax(inside[:-1] * inside[1:] <= 0, axis=0)
         pair = np.array([first, first + 1])
         ends, values = np.take_along_axis(finer, pair, 0), np.take_along_axis(inside, pair, 0)
-    zeros = ends[0] - values[0] * (ends[1] - ends[0]) / (values[1] - values[0])
-    return np.exp(zeros), margins
+    return ends[0] - values[0] * (ends[1] - ends[0]) / (values[1] - values[0])
 
 
 def joint_draws(fit, n=128, seed=2086):
@@ -498,38 +508,38 @@ def joint_draws(fit, n=128, seed=2086):
     return fit.beta[:, None] + axes * np.sqrt(np.maximum(values, 0)) @ z
 
 
-def follow_speed(robot, law, road, v, iterations=3):
-    """Where a critical speed goes when the law is another one, by the secant method in ln v.
+def follow_speed(robot, law, road, v):
+    """Where a critical speed is when the law is another one: the nearest change of sign.
 
     Parameters
     ----------
     robot, road
         As in `drive`.
     law : SpringLaw
-        Broadcast against `v`.
-    v : array_like
-        Where to begin, m/s, > 0.
-    iterations : int
-        Steps of the secant method after the first, >= 1.
+        n laws.
+    v : float
+        Where the critical speed was, m/s, > 0.
 
     Returns
     -------
-    speeds : ndarray
-        m/s; nan where none is found within a factor 1.3.
+    speeds : ndarray, shape (n,)
+        m/s; nan where the margin has one sign at nine speeds up to a factor 1.3 to both sides.
     """
     _checks.instance("law", law, SpringLaw)
-    iterations = _checks.whole("iterations", iterations, 1)
-    old, f_old = np.log(v), drive(robot, law, road, v).margin
-    start = old
-    new = old + 0.01
-    for _ in range(iterations):
-        f_new = drive(robot, law, road, np.exp(new)).margin
-        change = np.where(f_new == f_old, np.inf, f_new - f_old)
-        step = -f_new * (new - old) / change
-        old, f_old = new, f_new
-        new = np.clip(new + step, start - np.log(REACH), start + np.log(REACH))
-    found = (np.abs(new - old) < SETTLED) & (np.abs(new - start) < np.log(REACH))
-    return np.where(found, np.exp(new), np.nan)
+    if len(law.shape) != 1:
+        raise ValueError(f"law must be a row of laws, got shape {law.shape}")
+    x = np.log(_checks.positive("v", v)) + np.linspace(-1, 1, 9) * np.log(REACH)
+    margins = drive(robot, law, road, np.exp(x)[:, None]).margin
+    turns = margins[:-1] * margins[1:] < 0
+    # From the middle outwards, so that the first change of sign is the nearest.
+    order = np.argsort(np.abs(np.arange(8) - 3.5), kind="stable")
+    j = order[np.argmax(turns[order], axis=0)]
+    some = np.flatnonzero(turns.any(axis=0))
+    j = j[some]
+    ends, values = np.array([x[j], x[j + 1]]), np.array([margins[j, some], margins[j + 1, some]])
+    speeds = np.full(law.shape, np.nan)
+    speeds[some] = np.exp(_zeros_between(robot, law[some], road, ends, values, 1, True))
+    return speeds
 
 
 def _one_law(law):

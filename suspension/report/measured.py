@@ -52,6 +52,9 @@ __all__ = [
 ]
 
 SAME = 0.1  # critical speeds of two laws nearer than this (relative) are called the same
+ROUNDOFF = 1e-9  # N
+ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
+KINK = 2.6  # an order below this is that of a kink, with its scatter
 SURE = 0.025  # a verdict with a smaller share of doubt is signed
 
 
@@ -60,13 +63,22 @@ SURE = 0.025  # a verdict with a smaller share of doubt is signed
 
 def law_caption(fit, at_rest, farthest):
     """Caption of the laws; displacements at rest and farthest of the line, over delta_max."""
-    text = (
-        "Four laws for one spring. Where it was measured they hardly differ, by construction; "
-        r"beyond $\delta_{\max}$ (grey) each is an assumption."
-        if farthest > 1
-        else "Four laws for one spring. They differ where it was never measured (grey), and the "
-        "robot does not go there."
-    )
+    x = np.linspace(0, 1, 101)
+    apart = np.abs(fit.beta[0] + fit.beta[2] * x**2).max() / fit.beta.sum()
+    if apart < ALIKE:
+        words = "Where it was measured they hardly differ."
+    else:
+        words = (
+            "The line has the parabola's slope at zero and leaves the readings; the others follow "
+            "them."
+        )
+    if farthest > 1:
+        words += r" Beyond $\delta_{\max}$ (grey) each is an assumption."
+    else:
+        words += (
+            r" Beyond $\delta_{\max}$ (grey) each is an assumption; the line does not go there."
+        )
+    text = f"Four laws for one spring. {words}"
     alt = (
         "Force against displacement over delta_max: the readings, a line, the fitted parabola with "
         "its end tangents, and the parabola with a rubber and with a metal stop, which turn up "
@@ -147,15 +159,19 @@ def verdict_sentence(asked, runs):
     """Which of the asked verdicts do not depend on the law; the first law is the line."""
     lost = _lost(runs)
     line = next(iter(lost))
-    same, words = [], []
+    same, turned = [], {}
     for i, v in enumerate(asked):
-        others = [name for name in lost if lost[name][i] != lost[line][i]]
-        if not others:
+        others = tuple(name for name in lost if lost[name][i] != lost[line][i])
+        if others:
+            turned.setdefault((bool(lost[line][i]), others), []).append(v)
+        else:
             same.append(v)
-            continue
-        was, now = ("lost", "kept") if lost[line][i] else ("kept", "lost")
+    words = []
+    for (gone, others), speeds in turned.items():
+        was, now = ("lost", "kept") if gone else ("kept", "lost")
         words.append(
-            f"At {speed_list([v])} it is {was} on the line and **{now}** on: {join(others)}."
+            f"At {speed_list(speeds)} contact is {was} on the line and **{now}** on: "
+            f"{join(others)}."
         )
     if not words:
         return (
@@ -274,12 +290,13 @@ def reach_table(asked, heights, linear, runs, delta_max):
         for i, v in enumerate(asked):
             mark = "*" if other.compression[i] > delta_max else ""
             wrong = (one.margin[i] > 0) != (other.margin[i] > 0)
-            error = number(one.margin[i] - other.margin[i], 2)
+            error = one.margin[i] - other.margin[i]
+            error = number(error, 2) if abs(error) > ROUNDOFF else "0"
             cells[f"{v:g} m/s"] = error + mark + (" (**another verdict**)" if wrong else "")
         rows.append({"bump (mm)": fixed(1000 * height, 1), **cells})
     note = (
         "Margin of the linear robot (the tangent at rest) minus that of the law, in N. An "
-        "asterisk: the spring reaches its stop before any loss of contact."
+        "asterisk: a spring is on its stop at some moment before any loss of contact."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -408,17 +425,19 @@ def order_caption(v, orders):
 
 def order_sentence(orders):
     """What the stop does to the order; `orders` by law, without a stop first."""
+    if not orders:
+        return "The errors are too small, beside those of Radau, to show an order."
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
-    first, *others = orders.values()
     words = f"Observed orders: {each}."
-    if first > 2.6 and max(others) < 2.6:
+    if max(orders.values()) < KINK:
+        return (
+            f"{words} On the stop the order is [that of a kink](06-flight.ipynb#one-bad-step), two."
+        )
+    first, *others = orders.values()
+    if first > KINK > max(others, default=first):
         return (
             f"{words} A stop is a kink of the force, and a kink costs RK4 its order: "
             "[two is what is left](06-flight.ipynb#one-bad-step)."
-        )
-    if max(others) < 2.6:
-        return (
-            f"{words} On the stop the order is [that of a kink](06-flight.ipynb#one-bad-step), two."
         )
     return f"{words} With these steps the kink does not show everywhere."
 
@@ -488,15 +507,25 @@ def cost_sentence(rows):
 # --- how well it is known -------------------------------------------------------------------------
 
 
-def draws_sentence(kept, drawn):
-    """How many coefficients were drawn, and how many of them are those of a spring."""
+def draws_sentence(kept, drawn, linear):
+    """How many coefficients were drawn, and how many of them are those of a spring.
+
+    `linear` says whether the readings do not contradict a line without preload.
+    """
     words = f"{drawn} draws of the three coefficients at once"
     if kept == drawn:
-        return f"{words}; in every one of them the spring grows stiffly enough to be one."
-    return (
-        f"{words}; {drawn - kept} are left out because their parabola bends down before "
-        r"$\delta_{\max}$, which no spring does: the intervals leave this doubt aside."
-    )
+        words += "; in every one of them the force grows up to the stop."
+    else:
+        words += (
+            f"; {drawn - kept} are left out because their parabola bends down before "
+            r"$\delta_{\max}$, which no spring does: the intervals leave this doubt aside."
+        )
+    if not linear:
+        words += (
+            " The readings contradict the line, which is kept here because the problem set asks "
+            "for its slope: where it stands alone against the other three, believe those."
+        )
+    return words
 
 
 def _share(lost):
@@ -588,22 +617,22 @@ def critical_table(critical, followed):
     ----------
     critical : dict of str to array_like, shape (n,)
         m/s, for each law.
-    followed : dict of str to ndarray, shape (draws, n)
+    followed : dict of str to list of ndarray, shape (draws,)
         Where each goes with the coefficients; nan where it was not found again.
     """
     rows = []
     for name, speeds in critical.items():
         for i, v in enumerate(speeds):
-            rows.append(_critical_row(name, v, followed[name][:, i]))
+            rows.append(_critical_row(name, v, followed[name][i]))
     for v, found in _families(critical, followed):
         rows.append(_critical_row("**all, with equal weights**", v, found))
     if not rows:
         return "No law has a critical speed in the range."
     rows.sort(key=lambda row: row.pop("order"))
     note = (
-        f"*Found*: in how many of the draws (of all laws, in the last rows) there is a critical "
-        f"speed within a factor {REACH:g}. Where it is not in all of them, the interval is that of "
-        "those in which it is, and has no confidence level of its own."
+        "*Found*: in how many of the draws (of all laws, in the last rows) the margin changes its "
+        f"sign within a factor {REACH:g}. Where that is not in all of them, the interval is that "
+        "of those in which it is, and has no confidence level of its own."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -629,16 +658,16 @@ def _families(critical, followed):
 
     A law that does not have one brings draws without it, nan.
     """
-    draws = max((values.shape[0] for values in followed.values()), default=0)
+    draws = max((len(one) for values in followed.values() for one in values), default=0)
     families = []
     for name, speeds in critical.items():
         for i, v in enumerate(speeds):
             for family in families:
                 if name not in family[1] and abs(np.log(v / family[0])) < SAME:
-                    family[1][name] = followed[name][:, i]
+                    family[1][name] = followed[name][i]
                     break
             else:
-                families.append((v, {name: followed[name][:, i]}))
+                families.append((v, {name: followed[name][i]}))
     none = np.full(draws, np.nan)
     return [
         (v, np.concatenate([members.get(name, none) for name in critical]))
@@ -716,8 +745,8 @@ def conclusions(asked, runs, drawn, critical, delta_max):
     if touched:
         sentences.append(
             f"Before anyone relies on a run at {speed_list(touched)}, press the spring on to its "
-            "stop and measure where that is and how stiff: a few readings there are worth more than a "
-            "hundred below."
+            "stop and measure where that is and how stiff: a few readings there are worth more "
+            "than a hundred below."
         )
     else:
         sentences.append(
