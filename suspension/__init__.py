@@ -14,6 +14,7 @@ What goes beyond:
 - `flight`: what happens after it has
 - `sweep`: very many runs at once
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
+- `measured`: the spring with its preload, its curvature and an end stop
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them.

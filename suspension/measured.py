@@ -33,7 +33,7 @@ __all__ = [
 MAX_WORK = 3 * 10**8  # cases times steps: half a minute and more
 FEWEST = 1000  # steps of a run, 23 for each sigma of the problem's bump
 ALL_ROUND = 2.5  # RK4 is stable where |z| is smaller and Re z <= 0
-ON_THE_STOP = 2  # steps within the longest one that is stable on the stop
+WITHIN = 2  # steps within the longest one that is stable
 REACH = 1.3  # a critical speed is looked for within this factor of where it was
 
 
@@ -185,8 +185,9 @@ def linearised(robot, law, w=None):
     Robot
         Its `A` is the Jacobian of ``w' = g(w)`` at `w`.
     """
-    w = rest(robot, law) if w is None else _checks.array("w", w, (4,))
+    _checks.instance("robot", robot, Robot)
     _one_law(law)
+    w = rest(robot, law) if w is None else _checks.array("w", w, (4,))
     k1, k2 = law.tangent(-(w[0] + robot.arms * w[2]))
     return replace(robot, k1=k1, k2=k2)
 
@@ -210,6 +211,8 @@ def make_measured_gfunc(robot, law, road, small=True):
     gfunc : callable
         For the problem's own `suspension.course.RK4`; state of shape (4,), t in s, v in m/s.
     """
+    _checks.instance("robot", robot, Robot)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
     _one_law(law)
     ground, motion = _ground(robot, road, small), _motion(robot, law, small)
 
@@ -226,8 +229,6 @@ def _ground(robot, road, small):
 
     With a small pitch the places do not depend on the states w, shape (4, n).
     """
-    _checks.instance("robot", robot, Robot)
-    _checks.function("road", road, "road(x) -> (H, dHdx)")
     arms = robot.arms[:, None]
 
     def ground(w, X):
@@ -309,8 +310,9 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
 
     Notes
     -----
-    A run takes 1000 steps of equal length. One that reaches the stop is done again with as many as
-    keep its time step below half of the largest one at which RK4 is stable on it. A least force
+    A run takes 1000 steps of equal length, or as many as keep its time step below half of the
+    largest one at which RK4 is stable. One that reaches the stop is done again, with as many steps
+    as that asks for. A least force
     between two samples is that of the parabola through three of them. After a loss the ground
     pulls, as in Part V, so that the margin is a continuous function of the speed; only its sign has
     a meaning then.
@@ -322,6 +324,8 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
     >>> drive(Robot(800, 800), law, GaussianBump(), 10).margin.round(1)
     array([  1.7, -28.2])
     """
+    _checks.instance("robot", robot, Robot)
+    _checks.function("road", road, "road(x) -> (H, dHdx)")
     _checks.instance("law", law, SpringLaw)
     fine, v = _checks.positive("fine", fine), _checks.array("v", v)
     if not (v > 0).all():
@@ -338,31 +342,29 @@ def drive(robot, law, road, v, *, fine=1.0, small=True):
         law.delta_max,
         np.broadcast_to(law.stop, shape).ravel(),
     )
-    found = np.empty((len(Drive._fields), v.size))
-    touched = np.ones(v.size, dtype=bool)
-    steps = np.full(v.size, np.ceil(fine * FEWEST))
-    if v.size:
-        _refuse(steps)
-        free = SpringLaw(law.beta0, law.beta1, law.beta2, law.delta_max)
-        found[:], deepest = _runs(robot, free, road, v, int(steps[0]), small)
-        touched = (law.stop > 0) & (deepest > law.delta_max)
-    steps = np.maximum(steps, ON_THE_STOP * fine * COURSE / (v * _longest_steps(robot, law)))
-    _refuse(steps[touched])
-    # Runs of similar length side by side, each group as long as its longest.
-    group = np.floor(np.log2(steps / FEWEST))
-    for number in np.unique(group[touched]):
-        some = np.flatnonzero(touched & (group == number))
-        longest = int(np.ceil(steps[some].max()))
-        found[:, some], _ = _runs(robot, law[some], road, v[some], longest, small)
-    return Drive(*found.reshape(len(Drive._fields), *shape))
+    free = SpringLaw(law.beta0, law.beta1, law.beta2, law.delta_max)
+    found = np.empty((len(Drive._fields) + 1, v.size))
+    _fill(found, np.ones(v.size, dtype=bool), robot, free, road, v, fine, small)
+    touched = (law.stop > 0) & (found[-1] > law.delta_max)
+    _fill(found, touched, robot, law, road, v, fine, small)
+    return Drive(*found[:-1].reshape(len(Drive._fields), *shape))
 
 
-def _refuse(steps):
-    if not steps.sum() <= MAX_WORK:
+def _fill(found, some, robot, law, road, v, fine, small):
+    """Do the runs of `some` cases, bool (n,), and write what `_runs` returns into `found`."""
+    steps = np.maximum(FEWEST, WITHIN * COURSE / (v * _longest_steps(robot, law)))
+    steps = np.ceil(fine * steps)
+    if not steps[some].sum() <= MAX_WORK:
         raise ValueError(
             f"v must not be so low or so many, law's stop so stiff, or fine so large, that all "
-            f"runs together take more than {MAX_WORK:.0e} steps, got {steps.sum():.2g}"
+            f"runs together take more than {MAX_WORK:.0e} steps, got {steps[some].sum():.2g}"
         )
+    # Runs of similar length side by side, each group as long as its longest.
+    group = np.floor(np.log2(steps / FEWEST))
+    for number in np.unique(group[some]):
+        those = np.flatnonzero(some & (group == number))
+        longest = int(steps[those].max())
+        found[:, those] = _runs(robot, law[those], road, v[those], longest, small)
 
 
 def _longest_steps(robot, law):
@@ -379,9 +381,9 @@ def _longest_steps(robot, law):
 
 
 def _runs(robot, law, road, v, steps, small):
-    """The rows of a `Drive` for n runs of so many steps, and the largest compressions, m.
+    """The rows of a `Drive` for n runs of so many steps, shape (6, n).
 
-    Shapes (5, n) and (n,); the compressions are those of the whole run, after a loss as well.
+    The last row is the largest compression in the whole run, m, after a loss as well.
     """
     ground, motion = _ground(robot, road, small), _motion(robot, law, small)
     dX, dt = COURSE / steps, COURSE / (v * steps)
@@ -422,7 +424,7 @@ def _runs(robot, law, road, v, steps, small):
         raise ValueError("road must be so smooth that a run stays finite")
     margin = least.min(axis=0)
     lost[margin > 0] = np.inf
-    return np.array([margin, lost, compression, extension, pitch]), deepest
+    return np.array([margin, lost, compression, extension, pitch, deepest])
 
 
 def zero_speeds(robot, law, road, v, *, zooms=1, small=True):

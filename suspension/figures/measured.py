@@ -99,7 +99,7 @@ def plot_measured_run(runs, delta_max, axes):
     axes[0].axhline(1, color="0.3", lw=0.8)
     axes[1].axhline(0, color="0.3", lw=0.8)
     axes[0].set(ylabel=r"$\delta/\delta_{\max}$")
-    axes[1].set(ylabel="normal force (N)", yscale="symlog")
+    axes[1].set(ylabel="normal force (N)")
     axes[1].set_yscale("symlog", linthresh=10)
     for ax in axes:
         ax.set(xlabel="position $X$ (m)")
@@ -155,7 +155,7 @@ def plot_stop_stiffness(ratio, margins, marked, ax=None):
         ax.axvline(place, color="0.5", lw=0.9, ls=":")
         ax.text(place, 0.02, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
     ax.set_yscale("symlog", linthresh=10)
-    ax.set(xlabel="stiffness of the stop / stiffness of the spring")
+    ax.set(xlabel=r"stop / spring stiffness $k_\mathrm{s}/k$")
     ax.set(ylabel="least normal force (N)")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     return ax

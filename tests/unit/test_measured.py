@@ -235,6 +235,11 @@ def test_speeds_and_laws_are_broadcast():
     assert drive(ROBOT, law[:, None], BUMP, []).margin.shape == (2, 0)
 
 
+def test_a_crawl_takes_as_many_steps_as_it_needs():
+    found = drive(ROBOT, LINE, FlatRoad(), 0.01)
+    assert math.isclose(found.margin, ROBOT.m * ROBOT.g / 2, rel_tol=1e-9)
+
+
 # --- critical speeds and draws --------------------------------------------------------------------
 
 
