@@ -16,6 +16,7 @@ What goes beyond:
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
+- `measured`: the spring with its preload, its curvature and an end stop
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them.

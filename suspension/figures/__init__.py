@@ -2,7 +2,7 @@
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
 the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
-`speeds`, `choice`, and `robot`, the robot itself, still or moving.
+`speeds`, `measured`, `choice`, and `robot`, the robot itself, still or moving.
 """
 
 from suspension.figures.choice import (
@@ -16,6 +16,13 @@ from suspension.figures.choice import (
 )
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
 from suspension.figures.forces import plot_all_forces, plot_flight, plot_forces
+from suspension.figures.measured import (
+    plot_measured_margins,
+    plot_measured_run,
+    plot_spring_laws,
+    plot_stop_regions,
+    plot_stop_stiffness,
+)
 from suspension.figures.regression import (
     plot_confidence_region,
     plot_experiments,
@@ -47,6 +54,8 @@ __all__ = [
     "plot_margin",
     "plot_margin_map",
     "plot_margins",
+    "plot_measured_margins",
+    "plot_measured_run",
     "plot_missed_dip",
     "plot_near_zero",
     "plot_pitch",
@@ -58,6 +67,9 @@ __all__ = [
     "plot_seen_mode",
     "plot_sensitivities",
     "plot_slopes",
+    "plot_spring_laws",
     "plot_stability",
+    "plot_stop_regions",
+    "plot_stop_stiffness",
     "plot_travel",
 ]

@@ -14,7 +14,7 @@ __all__ = ["plot_margin", "plot_margin_map", "plot_sensitivities", "plot_travel"
 
 def speed_axis(ax, v):
     """A logarithmic axis of speeds from v[0] to v[-1], m/s, with round numbers."""
-    ticks = [x for x in (0.1, 0.25, 0.5, 1.2, 2.5, 5, 10, 30) if v[0] <= x <= v[-1]]
+    ticks = [x for x in (0.1, 0.25, 0.5, 1.2, 2.5, 5, 10, 20, 30) if v[0] <= x <= v[-1]]
     ax.set_xscale("log")
     ax.set_xticks(ticks, [f"{x:g}" for x in ticks])
     ax.xaxis.set_minor_locator(NullLocator())

@@ -22,7 +22,7 @@ def plot_stability(scheme, eigenvalues, dts, window=(-6, 6, -9, 9), ax=None):
     """
     ax = axes_or_new(ax)
     points = [np.asarray(eigenvalues) * dt for dt in dts]
-    _draw_region(ax, scheme, window)
+    draw_region(ax, scheme, window)
     for k, (z, dt) in enumerate(zip(points, dts)):
         verdict = "stable" if scheme.is_stable(eigenvalues, dt) else "unstable"
         label = rf"$\lambda_k\Delta t$, $\Delta t = {dt:g}$ s: {verdict}"
@@ -49,7 +49,7 @@ def plot_near_zero(scheme, eigenvalues, dts, ax):
     right, bottom, top = ax.get_xlim()[1], *ax.get_ylim()
     place = [right + 5, bottom, 0.55 * (top - bottom), 0.6 * (top - bottom)]
     inset = ax.inset_axes(place, transform=ax.transData)
-    _draw_region(inset, scheme, (-width, width, -height, height))
+    draw_region(inset, scheme, (-width, width, -height, height))
     _draw_points(inset, z, smallest, None)
     inset.set_title(rf"near zero: $\Delta t = {dts[smallest]:g}$ s", weight="normal", size=8.5)
     inset.locator_params(axis="y", nbins=4)
@@ -61,7 +61,7 @@ def plot_near_zero(scheme, eigenvalues, dts, ax):
     return inset
 
 
-def _draw_region(ax, scheme, window):
+def draw_region(ax, scheme, window):
     """Shade where ``|R(z)| <= 1`` in a window (left, right, bottom, top) and draw its border."""
     x, y = np.linspace(*window[:2], 481), np.linspace(*window[2:], 481)
     growth = np.abs(scheme.stability_function(x + 1j * y[:, None]))

@@ -22,7 +22,7 @@ from helpers import ROOT
 from matplotlib import pyplot as plt
 
 import suspension
-from suspension import choice, contact, course, exact, frequency, springs
+from suspension import choice, contact, course, exact, frequency, measured, springs
 from suspension.animation import animate_robot
 from suspension.explorer import explore
 from suspension.road import RoughRoad
@@ -43,6 +43,8 @@ FIT = springs.fit_spring(DATA)
 T = np.linspace(0, 1, 11)
 W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
+LAW = measured.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
+TWO_LAWS = measured.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
 
 class Thing:
@@ -72,6 +74,8 @@ NOT_A_ROBOT = [*NOT_AN_OBJECT, Thing, suspension.Robot, BUMP, RK4, len]
 NOT_A_BUMP = [*NOT_AN_OBJECT, Thing, suspension.GaussianBump, ROBOT, suspension.FlatRoad(), len]
 NOT_A_SCHEME = [*NOT_AN_OBJECT, Thing, suspension.Scheme, "RK4", ROBOT, len]
 NOT_A_TABLE = [*NOT_AN_OBJECT, Thing, ROBOT, DATA["force"], np.ones((5, 2)), len]
+NOT_A_LAW = [*NOT_AN_OBJECT, Thing, measured.SpringLaw, FIT, ROBOT, len]
+NOT_A_FIT = [*NOT_AN_OBJECT, Thing, springs.SpringFit, FIT.results, DATA, LAW, len]
 NO_ROADS = [
     lambda x: None,
     lambda x: 0.0,
@@ -423,6 +427,82 @@ TABLE = [
             ]
         },
         also=("README.md", "pyproject.toml"),
+    ),
+    Row(
+        "measured.SpringLaw",
+        measured.SpringLaw,
+        {"beta0": 0.1, "beta1": 13.0, "beta2": -0.5, "delta_max": 0.0165, "stop": 8000.0},
+        {
+            "beta0": [*not_an_array(0.1), np.nan, np.inf, [np.nan, 0.0]],
+            "beta1": [*not_an_array(13.0), np.nan, np.inf, 0.0, -1.0, [13.0, 0.0]],
+            "beta2": [*not_an_array(-0.5), np.nan, -np.inf, -6.5, -10.0, [0.0, -7.0]],
+            "delta_max": NOT_POSITIVE,
+            "stop": [*not_an_array(8000.0), np.nan, np.inf, -1.0, [1.0, -1.0]],
+        },
+    ),
+    Row(
+        "SpringLaw.of",
+        measured.SpringLaw.of,
+        {"fit": FIT, "stop": 8000.0},
+        {"stop": [*not_an_array(8000.0), np.nan, np.inf, -1.0]},
+        {"fit": NOT_A_FIT},
+    ),
+    Row(
+        "measured.rest",
+        measured.rest,
+        {"robot": ROBOT, "law": LAW},
+        {},
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
+    ),
+    Row(
+        "linearised",
+        measured.linearised,
+        {"robot": ROBOT, "law": LAW, "w": np.zeros(4)},
+        {"law": [TWO_LAWS], "w": but(not_like(np.zeros(4)), None)},
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
+    ),
+    Row(
+        "make_measured_gfunc",
+        lambda robot, law, road: measured.make_measured_gfunc(robot, law, road)(T[:4], 0.1, 1.0),
+        {"robot": ROBOT, "law": LAW, "road": BUMP},
+        {"law": [TWO_LAWS], "road": NO_ROADS},
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "drive",
+        measured.drive,
+        {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": [20.0, 10.0], "fine": 0.1},
+        {
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1.0] * 10**6],
+            "fine": [*NOT_POSITIVE, 1e9, 1e300],
+        },
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "zero_speeds",
+        measured.zero_speeds,
+        {"robot": ROBOT, "law": LAW, "road": BUMP, "v": [20.0, 25.0], "zooms": 0},
+        {
+            "law": [TWO_LAWS],
+            "v": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
+            "zooms": [*NOT_NONNEGATIVE, 0.5],
+        },
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
+    ),
+    Row(
+        "follow_speed",
+        measured.follow_speed,
+        {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": 20.0},
+        {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300]},
+        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "joint_draws",
+        measured.joint_draws,
+        {"fit": FIT, "n": 4, "seed": 1},
+        {"n": [*NOT_WHOLE, 1, 3, 100, 2**17, 2**60], "seed": [*NOT_NONNEGATIVE, 0.5]},
+        {"fit": NOT_A_FIT},
     ),
     Row(
         "fit_spring",

@@ -27,6 +27,8 @@ from suspension.figures import (
     plot_margin,
     plot_margin_map,
     plot_margins,
+    plot_measured_margins,
+    plot_measured_run,
     plot_missed_dip,
     plot_near_zero,
     plot_pitch,
@@ -38,7 +40,10 @@ from suspension.figures import (
     plot_seen_mode,
     plot_sensitivities,
     plot_slopes,
+    plot_spring_laws,
     plot_stability,
+    plot_stop_regions,
+    plot_stop_stiffness,
     plot_travel,
 )
 from suspension.figures.layout import narrow
@@ -73,6 +78,10 @@ T = np.linspace(0, 1, 101)
 BOXES = np.array([[0.0, 0.0], [3.0, 0.0]]), np.ones((2, 2))  # the second misses the origin
 DIP = 1 - 1.1 * np.exp(-(((T - 0.55) / 0.02) ** 2))
 
+LAWS = {"line": 13 * T, "stop": 13 * T + 100 * np.maximum(T - 0.5, 0)}
+MARGINS = {"line": FORCES[0], "stop": FORCES[1] - 9}
+RUNS = {"line": (T, 0.01 * T, 9 - T), "stop": (T, 0.02 * T, 9 - 10 * T)}
+
 ON_ONE = {
     "plot_fit": lambda ax: plot_fit(FIT, DATA, ax=ax),
     "plot_confidence_region": lambda ax: plot_confidence_region(FIT, ax=ax),
@@ -84,6 +93,16 @@ ON_ONE = {
     "plot_margin": lambda ax: plot_margin(V, FORCES, CRITICAL, asked=[1.2], ax=ax),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
+    ),
+    "plot_measured_margins": lambda ax: plot_measured_margins(
+        V, MARGINS, {"line": CRITICAL, "stop": []}, [1.2], ax
+    ),
+    "plot_spring_laws": lambda ax: plot_spring_laws(T, LAWS, DATA, 0.5, 0.9, ax),
+    "plot_stop_regions": lambda ax: plot_stop_regions(
+        RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6), ax
+    ),
+    "plot_stop_stiffness": lambda ax: plot_stop_stiffness(
+        np.geomspace(1, 1e4, 9), {1.2: np.linspace(3, -300, 9)}, {"rubber": 10}, ax
     ),
     "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
     "plot_demand_map": lambda ax: plot_demand_map(
@@ -107,10 +126,12 @@ ON_TWO = {
     "plot_residuals": lambda axes: plot_residuals(FIT, DATA, axes),
     "plot_road_signal": lambda axes: plot_road_signal({1.2: (T, T, T), 5: (T, 0 * T, T)}, axes),
     "plot_flight": lambda axes: plot_flight(FLIGHT, LINEAR, axes),
+    "plot_measured_run": lambda axes: plot_measured_run(RUNS, 0.0165, axes),
     "plot_missed_dip": lambda axes: plot_missed_dip(T, DIP, T[::10], DIP[::10], axes),
     "plot_travel": lambda axes: plot_travel(V, 0.01 + 0 * V, 0.1 + 0 * V, 0.0165, axes),
 }
 PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $j$", "amplitude of the mode"]
+PURE_NUMBERS += ["stop / spring stiffness $k_\\mathrm{s}/k$"]
 PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
 PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
@@ -487,3 +508,25 @@ def test_the_runs_lie_on_the_curves_of_the_root_mean_squares():
     near(lines(ax)["long runs"].get_xydata(), [[1.2, 1.2], [5, 5]], 1e-15)
     heights = [line.get_ydata()[0] for line in ax.lines if len(line.get_xdata()) == 2]
     assert {7, 7 / 3} <= set(heights)
+
+
+def test_every_law_has_a_line_of_its_own():
+    ax = plot_spring_laws(T, LAWS, DATA, 0.5, 0.9)
+    drawn = lines(ax)
+    for name, force in LAWS.items():
+        near(drawn[name].get_ydata(), force, 1e-15)
+    assert drawn["line"].get_linestyle() != drawn["stop"].get_linestyle()
+    near(drawn["data"].get_ydata(), DATA["force"], 1e-15)
+
+
+def test_critical_speeds_of_every_law_lie_on_zero():
+    ax = plot_measured_margins(V, MARGINS, {"line": CRITICAL, "stop": [3.0]}, [1.2])
+    marks = [line for line in ax.lines if line.get_marker() not in ("None", "")]
+    assert [list(mark.get_xdata()) for mark in marks] == [CRITICAL, [3.0]]
+    assert all((np.asarray(mark.get_ydata()) == 0).all() for mark in marks)
+
+
+def test_the_regions_say_which_steps_are_stable():
+    ax = plot_stop_regions(RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6))
+    said = [name for name in lines(ax) if "Delta t" in name]
+    assert ["unstable" in name for name in said] == [False, True]

@@ -1,0 +1,161 @@
+"""Figures of the measured spring: its law, what it does to the margin, and what a stop costs."""
+
+import numpy as np
+
+from suspension.figures.speeds import speed_axis
+from suspension.figures.stability import draw_region
+from suspension.figures.style import LINES, MARKERS, axes_or_new
+
+__all__ = [
+    "plot_measured_margins",
+    "plot_measured_run",
+    "plot_spring_laws",
+    "plot_stop_regions",
+    "plot_stop_stiffness",
+]
+
+
+def _style(i):
+    return {"color": f"C{i}", "ls": LINES[i % len(LINES)]}
+
+
+def plot_spring_laws(x, forces, data, at_rest, farthest, ax=None):
+    """Force of several laws against displacement, with the readings and the limit of both.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Displacement over delta_max.
+    forces : dict of str to array_like, shape (n,)
+        N, for each law.
+    data : DataFrame
+        Columns `delta_over_delta_max` and `force`.
+    at_rest, farthest : float
+        Displacements to mark, over delta_max: at rest, and the largest of the line.
+    """
+    ax = axes_or_new(ax)
+    top = 1.25 * np.max(next(iter(forces.values())))
+    ax.axvspan(1, x[-1], color="0.93", lw=0, zorder=0, label="never measured")
+    for i, (name, force) in enumerate(forces.items()):
+        ax.plot(x, force, label=name, **_style(i))
+    ax.plot(data["delta_over_delta_max"], data["force"], "o", color="k", mfc="none", label="data")
+    for place, label in ((at_rest, "at rest"), (farthest, "farthest, line")):
+        ax.axvline(place, color="0.35", lw=0.9, ls=":")
+        right = place > 0.8 * x[-1]
+        ax.text(place, top, f"{label} " if right else f" {label}", color="0.3", va="top",
+                ha="right" if right else "left")  # fmt: skip
+    ax.set(xlabel=r"$\delta/\delta_{\max}$", ylabel="force $F$ (N)")
+    ax.set(xlim=(x[0], x[-1]), ylim=(min(0, data["force"].min()) - 0.5, top))
+    ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return ax
+
+
+def plot_measured_margins(v, margins, critical, asked=(), ax=None):
+    """Least force on the way against speed for several laws, cut off far below zero.
+
+    Parameters
+    ----------
+    v : array_like, shape (n,)
+        Speeds, m/s, in order.
+    margins : dict of str to array_like, shape (n,)
+        N, for each law.
+    critical : dict of str to array_like
+        Critical speeds, m/s, for each law.
+    asked : sequence of float
+        Speeds to mark.
+    """
+    ax = axes_or_new(ax)
+    speed_axis(ax, v)
+    top = max(np.max(margin) for margin in margins.values())
+    ax.axhspan(-2.5 * top, 0, color="#fbe3d6", lw=0, zorder=0)
+    ax.axhline(0, color="0.2", lw=0.9)
+    for speed in asked:
+        ax.axvline(speed, color="0.6", lw=0.8, ls=":")
+    for i, (name, margin) in enumerate(margins.items()):
+        ax.plot(v, margin, label=name, **_style(i))
+        marks = {"mfc": "white", "ms": 6, "zorder": 4, "color": f"C{i}"}
+        ax.plot(critical[name], np.zeros(len(critical[name])), MARKERS[i], **marks)
+    ax.set(ylabel="least normal force (N)", ylim=(-2.5 * top, 1.15 * top))
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=4, columnspacing=1.2)
+    return ax
+
+
+def plot_measured_run(runs, delta_max, axes):
+    """Compression of the front spring and normal force of the front wheel on the way.
+
+    Parameters
+    ----------
+    runs : dict of str to tuple of three array_like, shape (n,)
+        For each law the place of the centre of mass, m, compression, m, and force, N; up to the
+        loss of contact.
+    delta_max : float
+        Place of the stop, m.
+    axes : two Axes
+    """
+    for i, (name, (X, compression, force)) in enumerate(runs.items()):
+        axes[0].plot(X, np.asarray(compression) / delta_max, label=name, **_style(i))
+        axes[1].plot(X, force, **_style(i))
+        axes[1].plot(X[-1], force[-1], MARKERS[i], color=f"C{i}", mfc="white", ms=6)
+    axes[0].axhline(1, color="0.3", lw=0.8)
+    axes[1].axhline(0, color="0.3", lw=0.8)
+    axes[0].set(ylabel=r"$\delta/\delta_{\max}$")
+    axes[1].set(ylabel="normal force (N)")
+    axes[1].set_yscale("symlog", linthresh=10)
+    for ax in axes:
+        ax.set(xlabel="position $X$ (m)")
+    axes[0].legend()
+    return axes
+
+
+def plot_stop_regions(scheme, eigenvalues, dts, window, ax=None):
+    """The region of absolute stability with the eigenvalues of several laws at several steps.
+
+    Parameters
+    ----------
+    scheme : Scheme
+    eigenvalues : dict of str to array_like, shape (4,)
+        1/s, for each law.
+    dts : sequence of float
+        Time steps, s.
+    window : tuple
+        Left, right, bottom and top of the picture.
+    """
+    ax = axes_or_new(ax)
+    draw_region(ax, scheme, window)
+    for k, dt in enumerate(dts):
+        for i, (name, values) in enumerate(eigenvalues.items()):
+            verdict = "stable" if scheme.is_stable(values, dt) else "unstable"
+            z = np.asarray(values) * dt
+            style = {"color": f"C{i + 1}", "mfc": "none", "mew": 1.4, "ms": 6 + 2 * (k == 0)}
+            label = rf"{name}, $\Delta t = {dt:g}$ s: {verdict}"
+            ax.plot(z.real, z.imag, MARKERS[3 * k + i], label=label, **style)
+    ax.set(aspect="equal", title=scheme.name, xlabel=r"Re $z$", ylabel=r"Im $z$")
+    ax.set(xlim=window[:2], ylim=window[2:])
+    ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return ax
+
+
+def plot_stop_stiffness(ratio, margins, marked, ax=None):
+    """Margin at several speeds against the stiffness of the stop.
+
+    Parameters
+    ----------
+    ratio : array_like, shape (n,)
+        Stiffness of the stop over that of the spring.
+    margins : dict of float to array_like, shape (n,)
+        For each speed in m/s: N.
+    marked : dict of str to float
+        Stops to mark, by name: their ratio.
+    """
+    ax = axes_or_new(ax)
+    for i, (v, margin) in enumerate(margins.items()):
+        ax.semilogx(ratio, margin, label=f"{v:g} m/s", **_style(i))
+    ax.axhline(0, color="0.2", lw=0.9)
+    for name, place in marked.items():
+        ax.axvline(place, color="0.5", lw=0.9, ls=":")
+        ax.text(place, 0.02, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
+    ax.set_yscale("symlog", linthresh=10)
+    ax.set(xlabel=r"stop / spring stiffness $k_\mathrm{s}/k$")
+    ax.set(ylabel="least normal force (N)")
+    ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return ax
