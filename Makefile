@@ -60,7 +60,6 @@ twice: $(VENV)
 
 # Pins what pyproject.toml allows, with hashes; what is pinned stays, unless UPGRADE=--upgrade.
 requirements: $(VENV)
-	$(BIN)/python -m pip install --quiet uv
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --all-extras --generate-hashes \
 	    --no-annotate --custom-compile-command "make requirements" $(UPGRADE) \
 	    --output-file requirements.txt pyproject.toml
@@ -68,6 +67,7 @@ requirements: $(VENV)
 clean:
 	rm -rf .venv _build book/npm/node_modules
 
+# uv installs in seconds what takes pip a minute; where only pip finds packages, pip does it.
 $(VENV): requirements.txt pyproject.toml
 	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
 	@$(PYTHON) -c "import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))" || \
@@ -75,7 +75,10 @@ $(VENV): requirements.txt pyproject.toml
 	@$(PYTHON) -c "import venv, ensurepip" 2>/dev/null || \
 	    { echo "$(PYTHON) cannot make environments; on Debian: apt install python3-venv"; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt || \
+	@sed -n '/^uv==/,/[^\\]$$/p' requirements.txt >.venv/uv.txt
+	$(BIN)/python -m pip install --quiet --require-hashes --requirement .venv/uv.txt && \
+	    $(BIN)/uv pip install --quiet --python $(BIN)/python --require-hashes --requirement requirements.txt || \
+	    $(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt || \
 	    { echo "pip could not install requirements.txt; is there a network?"; exit 1; }
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
