@@ -11,6 +11,8 @@ BUILD := PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
+# Notebooks and tests run side by side: threads for small matrices would only stand in their way.
+export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: book pdf readings lint quick test mutants lab notebooks bench twice requirements clean
 
@@ -31,7 +33,7 @@ quick: lint
 
 # Before a change is handed in: everything.
 test: book lint
-	$(PYTEST) --dist loadfile
+	$(PYTEST) --dist loadfile --no-loadscope-reorder
 
 # Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
 # MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.
@@ -77,7 +79,7 @@ $(VENV): requirements.txt pyproject.toml
 	$(PYTHON) -m venv .venv
 	@sed -n '/^uv==/,/[^\\]$$/p' requirements.txt >.venv/uv.txt
 	$(BIN)/python -m pip install --quiet --require-hashes --requirement .venv/uv.txt && \
-	    $(BIN)/uv pip install --quiet --python $(BIN)/python --require-hashes --requirement requirements.txt || \
+	    $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes --requirement requirements.txt || \
 	    $(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt || \
 	    { echo "pip could not install requirements.txt; is there a network?"; exit 1; }
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .

@@ -128,12 +128,19 @@ def starts(path):
 
 def mend_bookmarks(path):
     """Write each title once: Chromium repeats that of a heading moved to the next sheet."""
+    if not any(map(is_doubled, flat(PdfReader(path).outline))):
+        return  # to write the file again takes long
     writer = PdfWriter(clone_from=path)
-    for bookmark in flat(writer.outline):
-        half = len(bookmark.title) // 2
-        if bookmark.title[:half] == bookmark.title[half:]:
-            bookmark.node[NameObject("/Title")] = TextStringObject(bookmark.title[:half])
+    for bookmark in filter(is_doubled, flat(writer.outline)):
+        title = bookmark.title[: len(bookmark.title) // 2]
+        bookmark.node[NameObject("/Title")] = TextStringObject(title)
     writer.write(path)
+
+
+def is_doubled(bookmark):
+    """Whether a title consists of the same words twice."""
+    half = len(bookmark.title) // 2
+    return bookmark.title[:half] == bookmark.title[half:]
 
 
 def flat(outline):
@@ -149,7 +156,7 @@ def print_pages(browser, names, path):
     numbers = {}
     with TemporaryDirectory() as folder:
         source = Path(folder, "book.html")
-        for _ in range(2 if len(names) > 1 else 1):
+        for final in (False, True) if len(names) > 1 else (True,):
             source.write_text(joined(title, articles, numbers), encoding="utf-8")
             tab = browser.new_page()
             tab.goto(source.as_uri(), wait_until="networkidle")
@@ -162,8 +169,8 @@ def print_pages(browser, names, path):
                 display_header_footer=True,
                 header_template="<span></span>",
                 footer_template=FOOT,
-                outline=True,
-                tagged=True,
+                outline=final,
+                tagged=final,
             )
             tab.close()
             numbers = starts(path)
