@@ -155,6 +155,7 @@ def test_the_margins_of_the_line_are_the_exact_ones():
     np.testing.assert_allclose(drive(ROBOT, LINE, BUMP, ASKED).margin, exact, atol=1e-4)
 
 
+@pytest.mark.slow
 @each_law
 @pytest.mark.parametrize("small", [True, False], ids=["small", "true"])
 def test_a_drive_is_the_problems_rk4(law, small):
@@ -175,6 +176,7 @@ def test_a_drive_is_the_problems_rk4(law, small):
     assert math.isclose(found.pitch, np.abs(W[2, :until]).max(), rel_tol=5e-3)
 
 
+@pytest.mark.slow
 @each_law
 def test_scipys_radau_finds_the_same_forces(law):
     v = 3.0
@@ -186,6 +188,7 @@ def test_scipys_radau_finds_the_same_forces(law):
     near(W[:, ::8], run.y, 1e-4 if law.stop < 1e5 else 1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "order"), [(CURVED, 2.7), (BENT, 1.7)], ids=["curved", "stop"])
 def test_a_stop_costs_the_order(law, order):
     v, tfinal, J = 10.0, 0.03, 2 ** np.arange(5, 10)
@@ -198,6 +201,7 @@ def test_a_stop_costs_the_order(law, order):
     assert observed < 2.7 or law is CURVED
 
 
+@pytest.mark.slow
 def test_finer_steps_change_little():
     law = SpringLaw(1.5, 11.0, 4.0, DELTA_MAX, [0.0, 8e3, 8e5])[:, None]
     coarse, fine = (drive(ROBOT, law, BUMP, ASKED, fine=f).margin for f in (1, 4))

@@ -67,6 +67,7 @@ def draws(*columns, compression=0.01):
 # --- nothing that no sentence may contain ---------------------------------------------------------
 
 
+@pytest.mark.slow
 @each_fit
 def test_all_texts_are_sound(name):
     fit, robot, laws, runs, drawn = everything(name)
