@@ -600,6 +600,7 @@ def test_play_moves_the_robot_and_stops_when_told(visit, pages):
     tab.wait_for_timeout(800)
     assert now() > start + 0.02
     tab.get_by_role("button", name="Pause").click()
+    tab.wait_for_timeout(300)  # the last frame may still have to be drawn
     rest = now()
     tab.wait_for_timeout(300)
     assert now() == rest
