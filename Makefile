@@ -87,7 +87,7 @@ $(VENV): requirements.txt pyproject.toml
 
 $(PEERS): requirements-bench.txt | $(VENV)
 	$(BIN)/python -m venv .venv/bench
-	.venv/bench/bin/python -m pip install --quiet --require-hashes -r requirements.txt
-	.venv/bench/bin/python -m pip install --quiet -r requirements-bench.txt
+	$(BIN)/uv pip install --quiet --python .venv/bench/bin/python --require-hashes -r requirements.txt
+	$(BIN)/uv pip install --quiet --python .venv/bench/bin/python -r requirements-bench.txt
 	.venv/bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@

@@ -292,6 +292,7 @@ def test_the_points_of_the_smallest_step_are_enlarged_in_an_inset():
     ax.figure.canvas.draw()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [250, 800, 2300])
 def test_the_ticks_of_the_enlarged_place_do_not_touch_on_a_phone(k):
     z = Robot(k, k).eigenvalues

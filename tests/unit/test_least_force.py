@@ -116,6 +116,7 @@ def test_two_modes_that_never_die_are_least_when_they_meet_long_after(v):
     assert (N.min(axis=1) <= fine.min(axis=1) + 1e-12).all()
 
 
+@pytest.mark.slow
 @quick
 @given(robot=robots, bump=bumps, v=near(1.5, 10))
 def test_a_minimum_inside_the_run_is_level(robot, bump, v):
