@@ -40,8 +40,10 @@ test: book lint
 mutants: $(VENV)
 	$(BIN)/python tests/mutants.py $(if $(SAMPLE),--sample $(SAMPLE)) $(MODULES)
 
-# The root is this folder, so that links between notebooks and pages work.
+# The root is this folder, so that links between notebooks and pages work. JupyterLab shows the stored
+# figures, which are SVG, in notebooks that it trusts.
 lab: $(VENV)
+	@$(BIN)/jupyter trust notebooks/*.ipynb >/dev/null
 	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root)
 
 # The answer sheet and the whole book, as _build/pdf/*.pdf; needs Chromium.

@@ -1,8 +1,9 @@
 """Execute notebooks; store what the tests compare, and figures: `make notebooks`.
 
-Of cells tagged `nbval-ignore-output` only figures are kept: JupyterLab shows them
-before anything is run. Widgets and timings are dropped. Execution counts run
-1, 2, 3, as nbval wants them. Running it twice changes nothing.
+Of cells tagged `nbval-ignore-output` only figures and their captions are kept:
+JupyterLab shows them before anything is run. Widgets and timings are dropped.
+Execution counts run 1, 2, 3, as nbval wants them. Running it twice changes
+nothing.
 """
 
 import sys
@@ -37,10 +38,13 @@ def normalise(notebook):
         count += 1
         cell.execution_count = count
         compared = "nbval-ignore-output" not in cell.metadata.get("tags", [])
-        wanted = [
-            x for x in cell.outputs if compared or FIGURE in x.get("data", {})
+        figure = any(FIGURE in x.get("data", {}) for x in cell.outputs)
+        wanted = {FIGURE, "text/markdown"} if figure else set()
+        cell.outputs = [
+            plain(output, count)
+            for output in cell.outputs
+            if compared or wanted & set(output.get("data", {}))
         ]
-        cell.outputs = [plain(output, count) for output in wanted]
     return notebook
 
 

@@ -83,5 +83,6 @@ def test_make_says_what_is_missing(bare, code, told):
 @pytest.mark.skipif(shutil.which("make") is None, reason="needs make")
 def test_lab_starts_as_root_and_in_the_folder_of_the_project():
     output = run(["make", "--dry-run", "--assume-old=.venv/.installed", "lab"], ROOT)[1]
+    assert "jupyter trust notebooks/*.ipynb" in output  # or their figures are hidden at first
     assert "--notebook-dir" not in output
     assert ("--allow-root" in output) == (hasattr(os, "getuid") and os.getuid() == 0)
