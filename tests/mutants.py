@@ -77,6 +77,7 @@ EQUIVALENT = [
     ("least_force", "DIGITS_LOST =", "", GUARD),
     ("least_force", "units = 8", "8", "an estimate of roundoff, safe by a factor or two"),
     ("least_force", "4 * EPS", "4", "the same"),
+    ("least_force", "passing = passing[(", "", "an estimate: more moments can make it only safer"),
     ("least_force", "return 400", "400", "about how many samples"),
     ("least_force", "2 + int(swings)", "2", DENSITY),
     ("least_force", "2 + int(7 *", "2", DENSITY),
