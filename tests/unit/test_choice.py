@@ -48,6 +48,7 @@ def test_best_compromises_are_those_that_nothing_beats():
     assert efficient([[1, 1], [1, 1]]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reserve", [0, 0.7])
 def test_the_cheapest_change_reaches_what_is_asked_and_no_smaller_one_does(reserve):
     choice = cheapest(ROBOT, BUMP, ASKED, K, C, reserve)

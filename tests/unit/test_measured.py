@@ -231,6 +231,7 @@ def test_a_robot_on_its_stop_is_one_with_that_stiffness_while_it_stays_there():
     assert math.isclose(drive(ROBOT, soft, low, 0.5).margin, margin(stiff, low, 0.5), rel_tol=1e-4)
 
 
+@pytest.mark.slow
 def test_speeds_and_laws_are_broadcast():
     law = SpringLaw(0.0, 13.2, 0.0, DELTA_MAX, [0.0, 8e3])
     found = drive(ROBOT, law[:, None], BUMP, [2.0, 10.0, 20.0])
@@ -239,6 +240,7 @@ def test_speeds_and_laws_are_broadcast():
     assert drive(ROBOT, law[:, None], BUMP, []).margin.shape == (2, 0)
 
 
+@pytest.mark.slow
 def test_a_crawl_takes_as_many_steps_as_it_needs():
     found = drive(ROBOT, LINE, FlatRoad(), 0.01)
     assert math.isclose(found.margin, ROBOT.m * ROBOT.g / 2, rel_tol=1e-9)
@@ -247,6 +249,7 @@ def test_a_crawl_takes_as_many_steps_as_it_needs():
 # --- critical speeds and draws --------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_zeros_of_the_line_are_its_critical_speeds():
     found, margins = zero_speeds(ROBOT, LINE, BUMP, np.geomspace(0.3, 30, 90))
     np.testing.assert_allclose(found, critical_speeds(ROBOT, BUMP, 0.3, 30), rtol=1e-4)
@@ -255,6 +258,7 @@ def test_the_zeros_of_the_line_are_its_critical_speeds():
     assert none.shape == (0,)
 
 
+@pytest.mark.slow
 def test_a_critical_speed_is_followed_through_other_laws():
     stiffness = np.array([760.0, 800.0, 830.0])
     laws = SpringLaw(0.0, stiffness * DELTA_MAX, 0.0, DELTA_MAX)
