@@ -82,6 +82,8 @@ EQUIVALENT = [
     ("least_force", "2 + int(swings)", "2", DENSITY),
     ("least_force", "2 + int(7 *", "2", DENSITY),
     ("least_force", "np.arange(-66, 133)", "30", DENSITY),
+    ("critical", "ripples = 1 +", "1", DENSITY),
+    ("critical", "count = (20 +", "", "where samples are few, a bound of the slope asks for more"),
 ]
 
 

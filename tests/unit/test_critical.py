@@ -173,3 +173,8 @@ def test_a_robot_twice_as_heavy_stiff_and_damped_presses_twice_as_hard(v):
 def test_what_cannot_be_is_refused(find, message):
     with pytest.raises(ValueError, match=message):
         find()
+
+
+def test_a_search_without_end_is_refused_and_says_which_end_is_too_low():
+    with pytest.raises(ValueError, match="vmin so far from zero, that at most .* 1e-12 and 30"):
+        critical_speeds(Robot(800, 800), GaussianBump(), 1e-12, 30)
