@@ -103,6 +103,7 @@ def evaluations(scheme, J):
     >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
     (101, 400)
     """
+    J = _checks.whole("J", J, 0)
     starts_at_the_old_end = scheme.c[0] == 0 and not scheme.a[0].any()
     ends_at_the_new_one = np.all(scheme.a[-1] == scheme.b)
     reused = int(starts_at_the_old_end and ends_at_the_new_one)
@@ -273,7 +274,10 @@ def fitted_order(dts, errors):
     >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
-    dts, errors = np.asarray(dts), np.asarray(errors)
+    dts = _checks.array("dts", dts, (None,))
+    if not (dts > 0).all():
+        raise ValueError(f"dts must be > 0, got {dts.min():g}")
+    errors = _checks.array("errors", errors, dts.shape, finite=False)
     good = np.isfinite(errors) & (errors > 0)
     if good.sum() < 2:
         return np.nan
@@ -303,7 +307,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
     v, tfinal : float
         Speed, m/s, and final time, s.
     steps : sequence of int
-        Numbers of steps from 0 to `tfinal`.
+        Numbers of steps from 0 to `tfinal`, >= 1.
 
     Returns
     -------
@@ -311,6 +315,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         Largest error of a state component relative to its largest value in the run: for steps
         that ignore the switches, and for steps fitted between them.
     """
+    steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)
     scale = np.abs(flight.W).max(axis=1)
     gfunc = make_flight_gfunc(robot, road)

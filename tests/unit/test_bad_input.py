@@ -398,6 +398,27 @@ TABLE = [
         {"stiffness": but(NOT_A_FIT, FIT.slope), **NO_CROSSING},
     ),
     Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 5},
+        {"J": but(NOT_WHOLE, *ZERO)},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [0.01, 0.04]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0.0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1.0, 2.0]), [1.0], [1.0, 2.0, 3.0], 1.0],
+        },
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        {"robot": ROBOT, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
+        {"steps": [[J] for J in [*NOT_WHOLE, *ZERO]]},
+    ),
+    Row(
         "just_lost",
         accuracy.just_lost,
         {"robot": ROBOT, "bump": BUMP, "critical": [7.9457], "n": 2},
