@@ -35,7 +35,7 @@ def files_of(entry):
 # All pages of the book, without the endings of their files.
 PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
-    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
+    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
 
 

@@ -13,7 +13,7 @@ each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
 
 @cache
 def parse(path):
-    return BeautifulSoup(path.read_text(), "html.parser")
+    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
 
 
 @cache
@@ -73,7 +73,7 @@ def test_no_script_style_image_or_font_is_on_another_host(book, page):
     for address in loaded:
         path = here.parent / urlsplit(address).path
         if path.suffix == ".css":
-            styles.append(path.read_text())
+            styles.append(path.read_text(encoding="utf-8"))
     for style in styles:
         loaded += re.findall(r"url\(\s*['\"]?([^'\")]+)", style)
         loaded += re.findall(r"@import\s+['\"]([^'\"]+)", style)

@@ -57,7 +57,8 @@ def fake_python(folder, code):
     program = folder / "bin" / "python3"
     start = "import sys; " + code
     program.write_text(
-        f"#!/bin/sh\nshift\nexec {sys.executable} -c '{start}\nexec(sys.argv[1])' \"$@\"\n"
+        f"#!/bin/sh\nshift\nexec {sys.executable} -c '{start}\nexec(sys.argv[1])' \"$@\"\n",
+        encoding="utf-8",
     )
     program.chmod(0o755)
     return str(folder / "bin" / "python3")
@@ -67,8 +68,8 @@ def fake_python(folder, code):
 @pytest.mark.parametrize(
     ("code", "told"),
     [
-        ("sys.version_info = (3, 9, 0)", "is not Python 3.11, 3.12 or 3.13"),
-        ("sys.version_info = (3, 14, 0)", "is not Python 3.11, 3.12 or 3.13"),
+        ("sys.version_info = (3, 9, 0)", "is not Python 3.11, 3.12, 3.13 or 3.14"),
+        ("sys.version_info = (3, 15, 0)", "is not Python 3.11, 3.12, 3.13 or 3.14"),
         ("sys.modules.update(ensurepip=None)", "apt install python3-venv"),
     ],
 )

@@ -674,7 +674,7 @@ def limits(seconds, gigabytes):
     before = signal.signal(signal.SIGPROF, stop)
     memory = resource.getrlimit(resource.RLIMIT_AS)
     if sys.platform == "linux":
-        pages = int(open("/proc/self/statm").read().split()[0])
+        pages = int(open("/proc/self/statm", encoding="utf-8").read().split()[0])
         most = pages * resource.getpagesize() + int(gigabytes * 2**30)
         resource.setrlimit(resource.RLIMIT_AS, (most, memory[1]))
     signal.setitimer(signal.ITIMER_PROF, seconds)
