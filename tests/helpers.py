@@ -3,6 +3,7 @@
 import re
 import shutil
 import threading
+import warnings
 from contextlib import contextmanager
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -37,6 +38,48 @@ PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
     for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
+
+
+class Quantity:
+    """What numbers with units are to NumPy: as pint's, it gives bare ones away, with a warning."""
+
+    def __init__(self, magnitude, units="metre"):
+        self.magnitude, self.units = magnitude, units
+
+    def __array__(self, dtype=None, copy=None):
+        """The magnitudes alone."""
+        warnings.warn("the unit of the quantity is stripped", UserWarning, stacklevel=2)
+        return np.asarray(self.magnitude, dtype)
+
+    def __float__(self):
+        """Only a number without a dimension is a float."""
+        raise TypeError(f"cannot convert from {self.units!r} to 'dimensionless'")
+
+    def __len__(self):
+        """As that of the magnitudes; a scalar has none."""
+        return len(self.magnitude)
+
+    def __getitem__(self, key):
+        """A part, with the same units."""
+        return Quantity(self.magnitude[key], self.units)
+
+    def __repr__(self):
+        """As that of pint."""
+        return f"<Quantity({self.magnitude}, {self.units!r})>"
+
+
+class UnitArray(np.ndarray):
+    """The other kind, of unyt and astropy: an array that carries its units along."""
+
+    def __new__(cls, values, units="metre"):
+        """A view of the values."""
+        made = np.asarray(values, float).view(cls)
+        made.units = units
+        return made
+
+    def __array_finalize__(self, other):
+        """Parts and results have units as well."""
+        self.units = getattr(other, "units", None)
 
 
 def near(actual, expected, relative):

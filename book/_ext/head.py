@@ -21,7 +21,8 @@ LOST = """<section id="lost"><h1>This page is not here</h1>
 
 
 def configure(app, config):
-    """Read the addresses."""
+    """Read the addresses, and give the book's name to all that ask for that of a project."""
+    config.project = config.html_title
     config.html_baseurl = os.environ.get("BOOK_ADDRESS", "").rstrip("/")
     config.html_baseurl += "/" if config.html_baseurl else ""
     repository = os.environ.get("BOOK_REPOSITORY", "").rstrip("/")

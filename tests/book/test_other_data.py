@@ -21,6 +21,7 @@ from suspension import RK4, GaussianBump, Robot, margin
 from suspension.springs import fit_spring, load_spring_data
 
 PARTS = ("suspension", "notebooks", "data", "book", "benchmarks", "_config.yml", "_toc.yml")
+PARTS += ("pyproject.toml", "README.md", "LICENSE")  # what a wheel is made from
 NOT_ABOUT_THE_SPRING = ("reference", "references", "speed")
 NEVER = {
     "a number that is none": r"\bnan\b|\binf\b|\bNone\b|\bnone m/s",

@@ -18,7 +18,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from helpers import ROOT
+from helpers import ROOT, Quantity, UnitArray
 from matplotlib import pyplot as plt
 
 import suspension
@@ -58,6 +58,7 @@ NOT_A_NUMBER = [
     *(np.ma.masked, np.ma.array(1.0, mask=True)),
     *([], [1.0], [1.0, 2.0], (1.0, 2.0), np.array([1.0]), np.array([1.0, 2.0]), np.eye(2)),
     *(np.datetime64("2026-01-01"), np.timedelta64(1, "s")),
+    *(Quantity(1.0), Quantity(np.ones(2)), [Quantity(1.0)], UnitArray(1.0), UnitArray([1.0])),
     *({}, {1.0}, Thing(), Thing, len, slice(3)),
 ]
 NEGATIVE = [-1, -1.5, -1e-300, np.float32(-2), Fraction(-1, 3), -np.finfo(float).max]
@@ -91,6 +92,8 @@ NO_ROADS = [
     lambda x: (x, x.astype(str)),
     lambda x: (x, np.full(x.shape, None)),
     lambda x: "HH",
+    lambda x: (Quantity(x), x),
+    lambda x: (x, UnitArray(x)),
     lambda x: (np.ma.array(x, mask=True), x),
     len,
 ]
@@ -110,6 +113,7 @@ def not_an_array(good, complex_too=False):
         *(good.astype(str), good.astype(bytes), good.astype(object), good.astype("M8[s]")),
         *(np.full(good.shape, None), pd.Series(["1.5"]), [None], ["1", "2"], [[1], [2, 3]]),
         *(np.ma.masked, np.ma.array(good, mask=True), np.ma.masked_equal(good, good.flat[0])),
+        *(Quantity(good), UnitArray(good), [Quantity(good)], [UnitArray(1.0)] * 4, UnitArray(1.0)),
         *([10**400] * 4, np.zeros(4, dtype=[("x", float)]), (x for x in "1234"), iter([1.0])),
     ]
     return values if complex_too else [*values, 1j, good.astype(complex), good + 1j]
