@@ -6,11 +6,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from suspension import _checks
 from suspension.contact import exact_loss, margin, normal_forces
 from suspension.course import RK4, make_forcing
 from suspension.exact import over_bump
 from suspension.flight import fly, make_flight_gfunc
 from suspension.least_force import COURSE
+from suspension.road import GaussianBump
+from suspension.schemes import Scheme
 from suspension.simulation import simulate
 
 __all__ = [
@@ -58,6 +61,8 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
     Errors
         The run's loss of contact is where a cubic spline through its forces crosses zero.
     """
+    _checks.instance("bump", bump, GaussianBump)
+    v = _checks.positive("v", v)
     tfinal = COURSE / v if tfinal is None else tfinal
     run = simulate(robot, bump, v=v, dt=dt, tfinal=tfinal, scheme=scheme)
     W, N = _truth(robot, bump, v, run.T)
@@ -97,6 +102,8 @@ def evaluations(scheme, J):
     >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
     (101, 400)
     """
+    _checks.instance("scheme", scheme, Scheme)
+    J = _checks.whole("J", J, 0)
     starts_at_the_old_end = scheme.c[0] == 0 and not scheme.a[0].any()
     ends_at_the_new_one = np.all(scheme.a[-1] == scheme.b)
     reused = int(starts_at_the_old_end and ends_at_the_new_one)
@@ -123,9 +130,17 @@ def seen_mode(scheme, lam, dts):
     seen : ndarray of complex, shape (n,)
         1/s.
     """
-    dts = np.asarray(dts)
+    _checks.instance("scheme", scheme, Scheme)
+    dts = _steps(dts)
     R = scheme.stability_function(lam * dts)
     return (np.log(np.abs(R)) + 1j * np.unwrap(np.angle(R))) / dts
+
+
+def _steps(dts):
+    dts = _checks.array("dts", dts, (None,))
+    if not (dts > 0).all():
+        raise ValueError(f"dts must be time steps > 0, got {dts[~(dts > 0)][0]:g}")
+    return dts
 
 
 def solve_ivp_errors(robot, bump, *, v, method, tolerances):
@@ -143,7 +158,7 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances):
     evaluations, errors : ndarray, shape (len(tolerances),)
         Right-hand sides evaluated, and the error at 201 times in N.
     """
-    T = np.linspace(0, COURSE / v, 201)
+    T = np.linspace(0, COURSE / _checks.positive("v", v), 201)
     N = _truth(robot, bump, v, T)[1]
     options = {} if method in ("RK45", "DOP853") else {"jac": lambda t, w: robot.A}
     costs, worst = [], []
@@ -158,13 +173,13 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances):
 
 def _solve_ivp(robot, bump, v, **options):
     F = make_forcing(robot, bump, v)
-    span = 0, COURSE / v
+    span = 0, COURSE / _checks.positive("v", v)
     return solve_ivp(lambda t, w: robot.A @ w + F(t), span, robot.equilibrium, **options)
 
 
 def disagreement(robot, bump, v):
     """Largest difference, in SI units, of the closed form from DOP853 at a tolerance of 1e-12."""
-    T = np.linspace(0, COURSE / v, 101)
+    T = np.linspace(0, COURSE / _checks.positive("v", v), 101)
     tight = {"rtol": 1e-12, "atol": 1e-14, "max_step": bump.sigma / v}
     run = _solve_ivp(robot, bump, v, method="DOP853", t_eval=T, **tight)
     return np.abs(run.y - over_bump(robot, bump, v, T)).max()
@@ -206,6 +221,8 @@ def just_lost(robot, bump, critical, n=40):
         In order, m/s; those at which contact is kept (because another critical speed is near) are
         left out, and without a critical speed there are none.
     """
+    n = _checks.whole("n", n, 1)
+    critical = _checks.array("critical", critical, (None,))
     if not len(critical):
         return np.array([])
     away = 0.05 * np.arange(1, n + 1) / (n + 1)
@@ -229,12 +246,23 @@ def missed_dip(robot, bump, v, **options):
 def fitted_order(dts, errors):
     """Slope of log(error) against log(dt): the observed order of convergence.
 
-    Errors that are not finite are left out; nan if fewer than two are left.
+    Parameters
+    ----------
+    dts : array_like, shape (n,)
+        Time steps, s, > 0.
+    errors : array_like, shape (n,)
+        Those that are zero or not finite are left out.
+
+    Returns
+    -------
+    order : float
+        nan if fewer than two errors are left.
 
     >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
-    dts, errors = np.asarray(dts), np.asarray(errors)
+    dts = _steps(dts)
+    errors = _checks.array("errors", errors, dts.shape, finite=False)
     good = np.isfinite(errors) & (errors > 0)
     if good.sum() < 2:
         return np.nan
@@ -272,6 +300,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         Largest error of a state component relative to its largest value in the run: for steps
         that ignore the switches, and for steps fitted between them.
     """
+    steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)
     scale = np.abs(flight.W).max(axis=1)
     gfunc = make_flight_gfunc(robot, road)

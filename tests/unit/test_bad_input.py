@@ -22,7 +22,7 @@ from helpers import ROOT, Quantity, UnitArray
 from matplotlib import pyplot as plt
 
 import suspension
-from suspension import choice, contact, course, exact, frequency, measured, springs
+from suspension import accuracy, choice, contact, course, exact, frequency, measured, springs
 from suspension.animation import animate_robot
 from suspension.explorer import explore
 from suspension.road import RoughRoad
@@ -338,7 +338,7 @@ TABLE = [
         RoughRoad,
         {"roughness": 1e-5, "length": 1.0, "shortest": 0.1, "seed": 1},
         {
-            "roughness": NOT_NONNEGATIVE,
+            "roughness": [*NOT_NONNEGATIVE, 1e308],
             "length": [*NOT_POSITIVE, 0.01, 1e5],
             "shortest": [*NOT_POSITIVE, 2, 1e-6],
             "seed": but([*NOT_WHOLE, 10**400], *ZERO),
@@ -361,6 +361,63 @@ TABLE = [
             {"robot": NOT_A_ROBOT, "road": [*NOT_AN_OBJECT, BUMP, len]},
         )
         for function in (frequency.steady_start, frequency.rms)
+    ),
+    Row(
+        "accuracy.errors",
+        accuracy.errors,
+        CROSS | {"dt": 0.01, "scheme": RK4},
+        {"v": NOT_POSITIVE, "dt": NOT_POSITIVE},
+        NO_CROSSING | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 7},
+        {"J": but(NOT_WHOLE, *ZERO)},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "seen_mode",
+        accuracy.seen_mode,
+        {"scheme": RK4, "lam": -1 + 2j, "dts": [0.1, 0.2]},
+        {"dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]]},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [1e-3, 4e-3]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1e-3, 4e-3]), [1.0, 2.0, 3.0], []],
+        },
+    ),
+    Row(
+        "just_lost",
+        accuracy.just_lost,
+        {"robot": ROBOT, "bump": BUMP, "critical": [0.437], "n": 1},
+        {"critical": not_finite([0.437]), "n": [*NOT_WHOLE]},
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
+    ),
+    *(
+        Row(function.__name__, function, CROSS | more, {"v": NOT_POSITIVE})
+        for function, more in (
+            (accuracy.solve_ivp_errors, {"method": "RK45", "tolerances": [1e-3]}),
+            (accuracy.disagreement, {}),
+            (accuracy.event_run, {}),
+            (accuracy.missed_dip, {}),
+        )
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        DRIVE | {"tfinal": 0.1, "steps": [10]},
+        {
+            "v": NOT_A_NUMBER,
+            "tfinal": NOT_POSITIVE,
+            "steps": [[10, bad] for bad in NOT_WHOLE],
+        },
+        NO_DRIVE,
     ),
     Row(
         "spectral_rms",
