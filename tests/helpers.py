@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import subprocess
 import threading
 import warnings
 from contextlib import contextmanager
@@ -123,6 +124,19 @@ def serve_files(folder):
     finally:
         server.shutdown()
         server.server_close()
+
+
+def windows_locale(folder):
+    """Variables of the environment in which text has the 256 letters of Windows, if possible.
+
+    Where the system cannot make such a locale (it takes ``localedef`` and its sources, on Debian
+    those of the package ``locales``), there are 128 letters, or 256 on Windows itself.
+    """
+    name = "en_US.CP1252"
+    command = ["localedef", "-i", "en_US", "-f", "CP1252", str(folder / name)]
+    made = shutil.which("localedef") and not subprocess.run(command, capture_output=True).returncode
+    own = {"LOCPATH": str(folder), "LC_ALL": name} if made else {"LC_ALL": "C"}
+    return own | {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 
 
 def find_chromium():
