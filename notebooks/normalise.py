@@ -11,6 +11,7 @@ from pathlib import Path
 
 import nbformat
 from nbclient import NotebookClient
+from traitlets.config import Config
 
 KERNEL = {
     "kernelspec": {
@@ -70,6 +71,8 @@ def main(paths):
             kernel_name="python3",
             coalesce_streams=True,
             resources={"metadata": {"path": str(path.parent)}},
+            # Or the kernel warns that it speaks without encryption.
+            config=Config(KernelManager={"transport_encryption": "auto"}),
         )
         client.execute()
         nbformat.write(normalise(notebook), path)

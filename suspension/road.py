@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from reprlib import repr as short
 
 import numpy as np
@@ -114,6 +115,11 @@ class RoughRoad:
             raise ValueError(
                 f"shortest must be from length / {MAX_WAVES} to length, got "
                 f"shortest={self.shortest:g}, length={self.length:g}"
+            )
+        if not isfinite(2 * self.roughness * (N0 * self.length) * N0 + 2 * self.roughness):
+            raise ValueError(
+                "roughness must be so small that heights are finite, got "
+                f"roughness={self.roughness:g}, length={self.length:g}"
             )
 
     @cached_property

@@ -21,6 +21,7 @@ from suspension import RK4, GaussianBump, Robot, margin
 from suspension.springs import fit_spring, load_spring_data
 
 PARTS = ("suspension", "notebooks", "data", "book", "benchmarks", "_config.yml", "_toc.yml")
+PARTS += ("pyproject.toml", "README.md", "LICENSE")  # what a wheel is made from
 NOT_ABOUT_THE_SPRING = ("reference", "references", "speed")
 NEVER = {
     "a number that is none": r"\bnan\b|\binf\b|\bNone\b|\bnone m/s",
@@ -56,7 +57,7 @@ def soft_spring(path):
     force = 250 * 0.0165 * x + np.random.default_rng(5).normal(0, 0.02, x.size)
     lines = [f"{a:.4f};{b:.3f}".replace(".", ",") for a, b in zip(x, force)]
     path = path / "spring_data.csv"
-    path.write_text("\n".join(["delta_over_delta_max;force", *lines, ""]))
+    path.write_text("\n".join(["delta_over_delta_max;force", *lines, ""]), encoding="utf-8")
     return path
 
 
@@ -101,7 +102,7 @@ def book(request, tmp_path_factory):
 
 def readable(path):
     """What a reader reads on a page, alternative texts included: no code, no formulas."""
-    article = BeautifulSoup(path.read_text(), "html.parser").find("article")
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").find("article")
     for image in article.find_all("img"):
         image.replace_with(f" {image.get('alt', '')} ")
     for node in article.select("pre, script, style, code, .math, .suspension-explorer-box"):
