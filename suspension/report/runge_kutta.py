@@ -82,15 +82,26 @@ def _residue(robot, road, wdot):
     )
 
 
-def growth_caption(runs, robot, shown):
-    """Caption of how the modes of two runs, with the numbers `shown`, grow or die away."""
+def growth_caption(runs, modes, robot, shown):
+    """Caption of how the modes of two runs grow or die away.
+
+    Parameters
+    ----------
+    runs : pair of Trajectory
+    modes : pair of array_like, shape (4, J+1)
+        Amplitudes of the modes in each.
+    robot : Robot
+    shown : sequence of int
+        Which modes are drawn.
+    """
     names = join(dict.fromkeys(mode_name(robot, k) for k in shown))
     fates = [_fate(run, robot, shown) for run in runs]
     left, right = (f"{run.dt:g}{SPACE}s" for run in runs)
+    seen = f"At {left} (left) {fates[0]}; at {right} (right) {fates[1]}."
     if fates[0] == fates[1]:
         seen = f"Both at {left} (left) and at {right} (right) {fates[0]}."
-    else:
-        seen = f"At {left} (left) {fates[0]}; at {right} (right) {fates[1]}."
+    if any(_covered(run, mode, robot, shown) for run, mode in zip(runs, modes)):
+        seen += " Where symbols leave their line the rounding of a larger mode covers the smaller."
     text = (
         f"Amplitude of the modes ({names}) step by step by {runs[0].scheme.name}, computed "
         rf"(symbols) and predicted from $\lvert R(\lambda_k\Delta t)\rvert$ (lines). {seen}"
@@ -100,6 +111,13 @@ def growth_caption(runs, robot, shown):
         f"number; the computed symbols lie on the straight predicted lines. {seen}"
     )
     return Caption(text, alt)
+
+
+def _covered(run, mode, robot, shown):
+    """Whether an amplitude leaves its line, by a tenth, as rounding makes it."""
+    growth = np.abs(run.scheme.stability_function(robot.eigenvalues[shown] * run.dt))
+    line = mode[shown, :1] * growth[:, None] ** np.arange(mode.shape[1])
+    return bool((np.abs(mode[shown] - line) > 0.1 * line).any())
 
 
 def _fate(run, robot, shown):
