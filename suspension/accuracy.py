@@ -26,6 +26,7 @@ __all__ = [
     "event_run",
     "fitted_order",
     "flight_errors",
+    "half_turn",
     "just_lost",
     "missed_dip",
     "overlooked",
@@ -145,6 +146,23 @@ def _steps(dts):
     if not (dts > 0).all():
         raise ValueError(f"dts must be time steps > 0, got {dts[~(dts > 0)][0]:g}")
     return dts
+
+
+def half_turn(seen, dts):
+    """The first step in which a mode turns by more than half a circle, s; None if there is none.
+
+    Parameters
+    ----------
+    seen : ndarray of complex, shape (n,)
+        The eigenvalue of the mode that a run shows, 1/s: `seen_mode`.
+    dts : array_like, shape (n,)
+        Time steps, s, in order.
+    """
+    angle = seen.imag * np.asarray(dts)
+    after = int(np.argmax(angle > np.pi))
+    if after == 0:
+        return None
+    return float(np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1]))
 
 
 def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):

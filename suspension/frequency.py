@@ -14,7 +14,7 @@ from suspension import _checks
 from suspension.road import N0, RoughRoad
 from suspension.robot import Robot
 
-__all__ = ["Response", "Spread", "response", "rms", "spectral_rms", "steady_start"]
+__all__ = ["Response", "Spread", "response", "rms", "spectral_rms", "speed_in_step", "steady_start"]
 
 MAX_WAVES = 10**6  # solved for at once: a second
 # Closer to a mode's own frequency, relative to it, roundoff decides how far the robot swings.
@@ -232,3 +232,20 @@ def _spread(G, power, names):
     if not np.isfinite([*force, *compression, pitch, acceleration]).all():
         raise ValueError(f"{names} must give finite mean squares, got {force} N")
     return Spread(force, compression, float(pitch), float(acceleration))
+
+
+def speed_in_step(robot):
+    """The speed at which one heave period passes between the wheels, m/s; None without a swing.
+
+    There the rear wheel meets what the front wheel met in step with the heave that it left behind.
+
+    Examples
+    --------
+    >>> round(speed_in_step(Robot(800, 800)), 3)
+    1.129
+    """
+    _checks.instance("robot", robot, Robot)
+    heave = robot.eigenvalues[robot.heave_share.argmax()]
+    if heave.imag == 0:
+        return None
+    return float((robot.L1 + robot.L2) * abs(heave.imag) / (2 * np.pi))

@@ -6,7 +6,14 @@ from xml.etree import ElementTree
 
 import pytest
 from bs4 import BeautifulSoup
+from docutils import nodes
+from docutils.frontend import get_default_settings
+from docutils.parsers.rst import Parser
+from docutils.utils import new_document
 from helpers import PAGES, ROOT
+
+sys.path.append(str(ROOT / "book" / "_ext"))
+from formulas import KeepPunctuation
 
 # How many children an element of MathML Core has; those that are not named have any number.
 CHILDREN = {
@@ -115,3 +122,20 @@ def test_no_punctuation_is_doubled_by_keeping_it_together(book, page):
         after = span.next_sibling
         last = span.contents[-1] if isinstance(span.contents[-1], str) else ""
         assert not (last and str(after or "").startswith(last)), span.parent.get_text()
+
+
+def test_the_punctuation_moves_once_though_another_text_reads_the_same():
+    paragraph = nodes.paragraph()
+    paragraph += [nodes.emphasis("", "mode"), nodes.Text(","), nodes.Text(" with ("), nodes.math()]
+    paragraph += [nodes.Text("),"), nodes.Text("\nand "), nodes.math(), nodes.Text(",")]
+    for formula in paragraph.findall(nodes.math):
+        formula += nodes.Text("x")
+    document = new_document("page", get_default_settings(Parser))
+    document += paragraph
+    before = paragraph.astext()
+    KeepPunctuation(document).run()
+    assert paragraph.astext() == before
+    spans = [
+        span.astext() for span in paragraph.findall(nodes.inline) if "together" in span["classes"]
+    ]
+    assert spans == ["(x),", "x,"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from suspension.frequency import response, rms, spectral_rms, steady_start
+from suspension.frequency import response, rms, spectral_rms, speed_in_step, steady_start
 from suspension.road import ISO_8608, RoughRoad
 from suspension.robot import Robot
 from suspension.schemes import Scheme
@@ -181,3 +181,13 @@ def test_roughness_scales_everything():
     one, four = (rms(ROBOTS["symmetric"], replace(ROAD, roughness=r), 2) for r in (1e-5, 4e-5))
     np.testing.assert_allclose(four.force, 2 * one.force)
     np.testing.assert_allclose(four.pitch, 2 * one.pitch)
+
+
+def test_at_the_speed_in_step_the_wheels_are_one_heave_period_apart():
+    robot = Robot(800, 800, c1=0, c2=0)
+    period = 2 * np.pi / np.sqrt(2 * robot.k1 / robot.m)
+    assert speed_in_step(robot) == pytest.approx((robot.L1 + robot.L2) / period)
+    assert speed_in_step(replace(robot, Izz=0.1)) == pytest.approx(speed_in_step(robot))
+    assert speed_in_step(ROBOTS["overdamped"]) is None
+    with pytest.raises(TypeError, match="robot"):
+        speed_in_step(800)
