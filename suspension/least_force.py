@@ -10,6 +10,8 @@ import numpy as np
 
 from suspension import _checks
 from suspension.exact import Crossing
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 
 __all__ = [
     "COURSE",
@@ -38,7 +40,7 @@ class Minimum(NamedTuple):
     X: float
 
 
-def margin(robot, bump, v, tfinal=None):
+def margin(robot: Robot, bump: GaussianBump, v: float, tfinal: float | None = None) -> float:
     """The least normal force of both wheels on the way over the bump, exact.
 
     The robot starts at rest, in equilibrium, and keeps contact if and only if the margin is
