@@ -2,6 +2,7 @@
 
 The model and its time loop, which the ten questions ask for:
 
+- `problem`: the facts of the problem set
 - `robot`, `road`, `schemes`: the matrices, the ground, one-step methods as Butcher tableaux
 - `forces`, `simulation`: what the wheels press with, and the motion step by step
 - `springs`, `course`: the regression, and the problem set's own functions by its names

@@ -134,7 +134,7 @@ class RoadProfile:
             raise ValueError(f"x must have two points at least, got {len(x)}")
         if len(h) != len(x):
             raise ValueError(f"h must have a height for each x, {len(x)}, got {len(h)}")
-        back = np.flatnonzero(np.diff(x) <= 0)
+        back = np.flatnonzero(x[1:] <= x[:-1])
         if back.size:
             i = back[0]
             remedy = "keep one point for each place" if x[i] == x[i + 1] else "sort the points"
