@@ -370,7 +370,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         blind.append(error(last(gfunc, robot.equilibrium, tfinal, J)))
         w = robot.equilibrium
         for start, end, pressing in flight.legs:
-            leg = make_flight_gfunc(robot, road, pressing, start)
+            leg = make_flight_gfunc(robot, road, pressing, start, end)
             w = last(leg, w, end - start, int(np.ceil(J * (end - start) / tfinal)))
         located.append(error(w))
     return np.array(blind), np.array(located)

@@ -15,7 +15,14 @@ RESOLUTION = 1e-5  # two critical values closer to each other than this (relativ
 MAX_SAMPLES = 4 * 10**6  # of the forces, in all margins on the first grid: some ten seconds
 
 
-def critical_speeds(robot, bump, vmin, vmax, *, distance=None):
+def critical_speeds(
+    robot: Robot,
+    bump: GaussianBump,
+    vmin: float,
+    vmax: float,
+    *,
+    distance: float | None = None,
+) -> np.ndarray:
     """Every speed at which the margin is zero: only there can the verdict change.
 
     Parameters

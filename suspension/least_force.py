@@ -42,7 +42,14 @@ class Minimum(NamedTuple):
     X: float
 
 
-def margin(robot, bump, v, tfinal=None, *, distance=None):
+def margin(
+    robot: Robot,
+    bump: GaussianBump,
+    v: float,
+    tfinal: float | None = None,
+    *,
+    distance: float | None = None,
+) -> float:
     """The least normal force of both wheels on the way over the bump, exact.
 
     The robot starts at X = 0, in the equilibrium of level ground, and keeps contact if and only if
