@@ -1,0 +1,480 @@
+"""One chart for every robot: the groups that matter, the highest bump, and its limits by hand.
+
+A symmetric robot on a Gaussian bump has five groups. Measure heights by the sag ``m g / 2k`` of
+the springs at rest, lengths along the road by sigma, times by ``1 / omega0`` and forces by the
+load ``m g / 2``. With ``s`` the place of a wheel on the bump and a prime for ``d/dtau``,
+
+    n_i = 1 + (h_i - y_i) + 2 zeta (h_i - y_i)',   h_i = eta exp(-s_i^2 / 2),   s_i' = nu,
+    y'' = (n_1 + n_2) / 2 - 1,   j phi'' = (n_2 - n_1) / 2,   y_i = y -+ phi.
+
+The motion is linear in the height, ``n_i = 1 + eta f_i(tau)``. So at each speed there is one highest
+bump that is crossed with contact, ``eta* = -1 / min f``, and a lower one is always crossed.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from suspension import _checks
+from suspension.exact import Crossing
+from suspension.least_force import DIGITS_LOST, distance_over, forces_and_minima
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+
+__all__ = [
+    "Groups",
+    "Window",
+    "closing",
+    "closing_limit",
+    "comb",
+    "follow",
+    "groups",
+    "highest_bump",
+    "natural_units",
+    "skim",
+    "still",
+    "throw",
+    "way",
+    "window",
+    "window_limit",
+]
+
+AHEAD = 8.0  # in units of sigma: so far ahead a bump of natural units begins
+SPACING = 0.03  # of the first grid of speeds in `window`, in ln v
+
+
+class Groups(NamedTuple):
+    """The five numbers that a symmetric robot and a Gaussian bump are.
+
+    nu : float
+        Speed ``v / (sigma omega0)``, ``omega0^2 = 2k / m``: sigmas passed in a swing's 1/omega0.
+    zeta : float
+        Damping ``c / sqrt(2 k m)``, that of the heave as a part of the critical one.
+    eta : float
+        Height of the bump over the sag ``m g / 2k`` of the springs at rest.
+    j : float
+        Inertia ``Izz / (m L^2)``; 1 if each wheel carries half of the mass and knows no other.
+    lam : float
+        Half of the wheelbase over the width, ``L / sigma``.
+    """
+
+    nu: float
+    zeta: float
+    eta: float
+    j: float
+    lam: float
+
+
+class Window(NamedTuple):
+    """Where going faster is safest: a speed, and the highest bump crossed there with contact."""
+
+    v: float
+    height: float
+
+
+def groups(robot, bump, v):
+    """The five groups of a symmetric robot that crosses a bump.
+
+    Parameters
+    ----------
+    robot : Robot
+        With k1 = k2, c1 = c2 and L1 = L2, and g > 0.
+    bump : GaussianBump
+    v : float
+        Speed, m/s, > 0.
+
+    Returns
+    -------
+    groups : Groups
+
+    Raises
+    ------
+    ValueError
+        If the robot is not symmetric or has no weight, or `v` is not a number > 0.
+
+    Examples
+    --------
+    >>> G = groups(Robot(800, 800), GaussianBump(), v=1.2)
+    >>> [round(x, 3) for x in G]
+    [1.257, 0.031, 2.845, 0.72, 3.715]
+    """
+    _symmetric(robot)
+    _checks.instance("bump", bump, GaussianBump)
+    v = _checks.positive("v", v)
+    if robot.g == 0:
+        raise ValueError("robot must have a weight (g > 0) to tell a height by, got g=0.0")
+    omega0 = np.sqrt(2 * robot.k1 / robot.m)
+    return Groups(
+        nu=float(v / (bump.sigma * omega0)),
+        zeta=float(robot.c1 / (robot.m * omega0)),
+        eta=float(bump.height * 2 * robot.k1 / (robot.m * robot.g)),
+        j=robot.Izz / (robot.m * robot.L1**2),
+        lam=robot.L1 / bump.sigma,
+    )
+
+
+def natural_units(groups):
+    """The robot, bump and speed of given groups for which mass, sag, omega0 and sigma are one.
+
+    Parameters
+    ----------
+    groups : Groups
+        nu, j, lam > 0 and zeta >= 0.
+
+    Returns
+    -------
+    robot : Robot
+    bump : GaussianBump
+        It begins eight sigma ahead of the front wheel.
+    v : float
+
+    Examples
+    --------
+    >>> robot, bump, v = natural_units(Groups(nu=2, zeta=0.1, eta=3, j=1, lam=4))
+    >>> robot.equilibrium[0], bump.height, v
+    (np.float64(-1.0), 3.0, 2.0)
+    """
+    _checks.instance("groups", groups, Groups)
+    nu, j, lam = (_checks.positive(name, getattr(groups, name)) for name in ("nu", "j", "lam"))
+    zeta = _checks.nonnegative("zeta", groups.zeta)
+    robot = Robot(0.5, 0.5, g=1, m=1, Izz=j * lam**2, L1=lam, L2=lam, c1=zeta, c2=zeta)
+    return robot, GaussianBump(groups.eta, 1, lam + AHEAD), nu
+
+
+def way(robot, bump, v, swings=8):
+    """How far a run goes that ends so many swings after both wheels have passed the bump, m.
+
+    A distance for `highest_bump` that grows with the speed, as the way of a swing does.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    v : array_like
+        Speeds, m/s, > 0.
+    swings : float
+        Swings of the slower mode to wait for, >= 0.
+
+    Returns
+    -------
+    distance : float or ndarray of the shape of `v`
+    """
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
+    swings = _checks.nonnegative("swings", swings)
+    slowest = np.abs(robot.eigenvalues).min()
+    passed = bump.centre + robot.L1 + AHEAD * bump.sigma
+    return passed + swings * 2 * np.pi / slowest * _speeds(v)[()]
+
+
+def highest_bump(robot, bump, v, *, distance=None):
+    """Height of the highest bump that is crossed with contact: a higher one lifts a wheel.
+
+    Forces are linear in the height, ``N_i = load_i + height f_i(t)``, so the answer is the least
+    of ``load_i / max(-f_i)`` over both wheels. Any robot; each wheel has its own load at rest.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+        Its width and place count, its height does not.
+    v : array_like
+        Speeds, m/s, > 0.
+    distance : array_like, optional
+        How far the run goes, m, > 0, of a shape that broadcasts with `v` (see `way`); 1.25 m, the
+        problem's, if the whole bump lies within.
+
+    Returns
+    -------
+    height : float or ndarray of the shape of `v`
+        In m; inf where no height lifts a wheel, as on a way that ends while the wheels climb.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, no distance is given and 1.25 m will not do, or robot
+        and bump are so extreme that the answer would lose more than six digits.
+
+    Examples
+    --------
+    >>> highest_bump(Robot(800, 800), GaussianBump(), [0.25, 1.2, 5, 10]).round(4)
+    array([0.1205, 0.0056, 0.0149, 0.0333])
+    """
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
+    v = _speeds(v)
+    if distance is None:
+        distance = distance_over(robot, bump)
+    way = _checks.array("distance", distance)
+    if not (way > 0).all():
+        raise ValueError(f"distance must be > 0, got {way.min():g}")
+    try:
+        v, way = np.broadcast_arrays(v, way)
+    except ValueError:
+        raise ValueError(
+            f"distance must have a shape that broadcasts with that of v, {v.shape}, got {way.shape}"
+        ) from None
+    load = robot.C @ robot.equilibrium
+    light = replace(robot, g=0)  # its forces are those of the bump alone, with all their digits
+    bump = replace(bump, height=1.0)
+    heights = [
+        _least_ratio(load, Crossing(light, bump, speed), length / speed)
+        for speed, length in zip(v.flat, way.flat)
+    ]
+    return np.reshape(heights, v.shape)[()]
+
+
+def _least_ratio(load, crossing, tfinal):
+    """Least ``load / lift`` of both wheels, m, where lift is the most that one metre takes away."""
+    _, N, error = forces_and_minima(crossing, tfinal)
+    lift, largest = -N.min(axis=1), np.abs(N).max()
+    if np.isfinite(largest) and error <= DIGITS_LOST * largest and lift.max() <= error:
+        return np.inf
+    if not error <= DIGITS_LOST * lift.max():
+        raise ValueError(
+            "robot and bump must be so moderate that double precision can tell the forces, "
+            f"got {crossing.robot} and {crossing.bump} at v = {crossing.v:g} m/s, where a metre of "
+            f"bump takes {lift.max():.2g} N from a wheel, with an error of {error:.2g} N"
+        )
+    return min(load[lift > 0] / lift[lift > 0])
+
+
+def follow(nu, j):
+    """The highest bump that is passed slowly: the body rides it, and the crest falls away.
+
+    ``eta* = 2 / ((1 + j) nu^2)``, too high by a part ``3 (1 + j^2) / (1 + j) nu^2``. It holds for
+    ``nu`` and ``zeta nu^2`` well below 1, if only one wheel at a time is on the bump (lam > 2).
+
+    Parameters
+    ----------
+    nu : array_like
+        Speed ``v / (sigma omega0)``, > 0.
+    j : float
+        Inertia ``Izz / (m L^2)``, > 0.
+    """
+    return 2 / ((1 + _checks.positive("j", j)) * _speeds(nu, "nu")[()] ** 2)
+
+
+def throw(nu):
+    """The highest bump that is over before the body moves: a kick, then free swing.
+
+    Each wheel hands over the momentum of its spring's force; two kicks at once lift the body
+    without turning it. ``eta* = nu / sqrt(2 pi)``, too high by a part ``lam / (j nu)``. It holds for
+    ``nu`` well above 1 and lam / j, without damping. For j = 1 the wheels do not feel each other,
+    and ``nu`` above 1 is enough (the part is ``1 / (2 nu^2)``, too low).
+
+    Parameters
+    ----------
+    nu : array_like
+        Speed ``v / (sigma omega0)``, > 0.
+    """
+    return _speeds(nu, "nu")[()] / np.sqrt(2 * np.pi)
+
+
+def skim(nu, zeta):
+    """The highest bump that is passed so fast that the body stands still: the damper pulls.
+
+    ``eta* = sqrt(e) / (2 zeta nu)``, too low by a part ``(1 / (2 zeta) - (1 + 1/j) zeta) / nu``. It
+    holds for ``zeta nu`` well above 1, and ``nu`` well above ``(1 + 1/j) zeta``.
+
+    Parameters
+    ----------
+    nu : array_like
+        Speed ``v / (sigma omega0)``, > 0.
+    zeta : float
+        Damping ``c / sqrt(2 k m)``, > 0.
+    """
+    return np.sqrt(np.e) / (2 * _checks.positive("zeta", zeta) * _speeds(nu, "nu")[()])
+
+
+def still(nu, zeta):
+    """The highest bump under a body that stands still, with the spring that `skim` leaves out.
+
+    ``n = 1 + eta exp(-s^2 / 2) (1 - 2 zeta nu s)`` is least at ``s = (1 + sqrt(1 + 4 a^2)) / 2a`` with
+    ``a = 2 zeta nu``, whence ``eta* = exp(s^2 / 2) / (a s - 1)``. It holds for ``nu`` well above 1
+    and ``(1 + 1/j) zeta`` as long as the swing that follows takes less from a wheel (`throw`).
+
+    Parameters
+    ----------
+    nu : array_like
+        Speed ``v / (sigma omega0)``, > 0.
+    zeta : float
+        Damping ``c / sqrt(2 k m)``, > 0.
+    """
+    a = 2 * _checks.positive("zeta", zeta) * _speeds(nu, "nu")[()]
+    s = (1 + np.sqrt(1 + 4 * a * a)) / (2 * a)
+    with np.errstate(over="ignore"):  # no height that a number can tell
+        return np.exp(s * s / 2) / (a * s - 1)
+
+
+def comb(nu, j, lam):
+    """The highest bump for the free swing that an undamped robot keeps, from both of its kicks.
+
+    The kicks come ``2 lam / nu`` apart, in or out of step with the swing of the first. They leave
+    the heave with an amplitude of ``cos(lam / nu)`` and the pitch with one of
+    ``sin(lam / (sqrt(j) nu)) / sqrt(j)`` kicks, each weakened as it swings while the bump passes:
+
+        1 / eta* = sqrt(2 pi) / nu (|cos(lam / nu)| exp(-1 / (2 nu^2))
+                   + |sin(lam / (sqrt(j) nu))| exp(-1 / (2 j nu^2)) / sqrt(j)).
+
+    Sooner or later the two swings unload a wheel together, unless their frequencies have a simple
+    ratio (j = 1); so a long look finds this, a short one a little more.
+
+    Parameters
+    ----------
+    nu : array_like
+        Speed ``v / (sigma omega0)``, > 0.
+    j, lam : float
+        Inertia ``Izz / (m L^2)`` and wheelbase ``L / sigma``, > 0.
+    """
+    nu = _speeds(nu, "nu")[()]
+    j, lam = _checks.positive("j", j), _checks.positive("lam", lam)
+    heave = np.abs(np.cos(lam / nu)) * np.exp(-1 / (2 * nu**2))
+    pitch = np.abs(np.sin(lam / (np.sqrt(j) * nu))) * np.exp(-1 / (2 * j * nu**2)) / np.sqrt(j)
+    with np.errstate(divide="ignore"):  # so slow that nothing swings
+        return nu / (np.sqrt(2 * np.pi) * (heave + pitch))
+
+
+def window_limit(zeta):
+    """Where the lines of `throw` and `still` meet: the top of the window "faster is safer".
+
+    Parameters
+    ----------
+    zeta : float
+        Damping ``c / sqrt(2 k m)``, > 0.
+
+    Returns
+    -------
+    nu, eta : float
+        Speed and height, dimensionless.
+    """
+    zeta = _checks.positive("zeta", zeta)
+
+    def above(x):  # ln(still / throw), falling
+        a = np.exp(x)
+        s = (1 + np.sqrt(1 + 4 * a * a)) / (2 * a)
+        return s * s / 2 - np.log(a * s - 1) - np.log(throw(a / (2 * zeta)))
+
+    nu = np.exp(brentq(above, -9, 9 + np.log(1 + zeta), xtol=1e-14)) / (2 * zeta)
+    return float(nu), float(throw(nu))
+
+
+def closing_limit(eta):
+    """The damping above which the window is closed for a bump, by the lines of `window_limit`.
+
+    ``zeta = a / (2 sqrt(2 pi) eta)``, where ``a`` is the ``2 zeta nu`` of `still` at this height.
+
+    Parameters
+    ----------
+    eta : float
+        Height of the bump over the sag, > 0.
+    """
+    eta = _checks.positive("eta", eta)
+    low, high = 1e-4, 10 * (1 + 1 / eta)
+    a = brentq(lambda a: np.log(still(a / 2, 1) / eta) if a > 0.05 else 1.0, low, high, xtol=1e-14)
+    return float(a / (2 * np.sqrt(2 * np.pi) * eta))
+
+
+def window(robot, bump, vmin, vmax, *, distance=None):
+    """Where "faster is safer" is most so: the safest speed beyond the slowest loss of contact.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    vmin, vmax : float
+        Range of speeds, m/s, 0 < vmin < vmax.
+    distance : float or callable, optional
+        As for `highest_bump`, or a function of the speed.
+
+    Returns
+    -------
+    window : Window or None
+        None if no speed loses contact. The bump itself is crossed with contact in the window if
+        the window's height is larger than its own.
+    """
+    vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+
+    def height(v):
+        return highest_bump(
+            robot, bump, v, distance=distance(v) if callable(distance) else distance
+        )
+
+    v = np.geomspace(vmin, vmax, 3 + int(np.log(vmax / vmin) / SPACING))
+    heights = height(v)
+    lost = heights < bump.height
+    if not lost.any():
+        return None
+    first = int(np.argmax(lost))
+    best = first + int(np.argmax(heights[first:]))
+    if best in (first, len(v) - 1):
+        return Window(float(v[best]), float(heights[best]))
+    top = minimize_scalar(
+        lambda x: -height(np.exp(x)),
+        bounds=np.log(v[[best - 1, best + 1]]),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    return Window(float(np.exp(top.x)), float(-top.fun))
+
+
+def closing(robot, bump, vmin, vmax, *, distance=None):
+    """The damping above which no speed beyond the slowest loss is safe, exactly.
+
+    Parameters
+    ----------
+    robot : Robot
+        A symmetric one; its damping does not count.
+    bump : GaussianBump
+    vmin, vmax : float
+        Range of speeds, m/s, 0 < vmin < vmax.
+    distance : float or callable, optional
+        As for `window`.
+
+    Returns
+    -------
+    zeta : float
+        Damping ``c / sqrt(2 k m)`` at which the top of the window is as high as the bump.
+
+    Raises
+    ------
+    ValueError
+        If the robot is not symmetric, or the window does not close between a hundredth and a
+        hundred times the damping of `closing_limit`.
+    """
+    _symmetric(robot)
+    critical = np.sqrt(2 * robot.k1 * robot.m)
+    eta = groups(robot, bump, vmin).eta
+
+    def above(x):
+        c = np.exp(x) * critical
+        top = window(replace(robot, c1=c, c2=c), bump, vmin, vmax, distance=distance)
+        return -1.0 if top is None else np.log(top.height / bump.height)
+
+    start = np.log(closing_limit(eta))
+    step = 0.25 if above(start) > 0 else -0.25
+    for x in np.arange(start, start + np.copysign(np.log(100), step), step):
+        if above(x + step) * step < 0:
+            return float(np.exp(brentq(above, *sorted((x, x + step)), xtol=1e-8)))
+    raise ValueError(
+        f"bump must be one for which the window closes between {vmin:g} and {vmax:g} m/s, got {bump}"
+    )
+
+
+def _symmetric(robot):
+    _checks.instance("robot", robot, Robot)
+    if (robot.k1, robot.c1, robot.L1) != (robot.k2, robot.c2, robot.L2):
+        raise ValueError(
+            "robot must be symmetric (k1 = k2, c1 = c2, L1 = L2) to have five groups, got "
+            f"k1={robot.k1}, k2={robot.k2}, c1={robot.c1}, c2={robot.c2}, "
+            f"L1={robot.L1}, L2={robot.L2}"
+        )
+
+
+def _speeds(v, name="v"):
+    v = _checks.array(name, v)
+    if not (v > 0).all():
+        raise ValueError(f"{name} must be > 0, got {v.min():g}")
+    return v
