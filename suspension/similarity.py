@@ -7,8 +7,8 @@ load ``m g / 2``. With ``s`` the place of a wheel on the bump and a prime for ``
     n_i = 1 + (h_i - y_i) + 2 zeta (h_i - y_i)',   h_i = eta exp(-s_i^2 / 2),   s_i' = nu,
     y'' = (n_1 + n_2) / 2 - 1,   j phi'' = (n_2 - n_1) / 2,   y_i = y -+ phi.
 
-The motion is linear in the height, ``n_i = 1 + eta f_i(tau)``. So at each speed there is one highest
-bump that is crossed with contact, ``eta* = -1 / min f``, and a lower one is always crossed.
+The motion is linear in the height, ``n_i = 1 + eta f_i(tau)``. So at each speed there is one
+highest bump that is crossed with contact, ``eta* = -1 / min f``; so is every lower one.
 """
 
 from dataclasses import replace
@@ -19,7 +19,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from suspension import _checks
 from suspension.exact import Crossing
-from suspension.least_force import DIGITS_LOST, distance_over, forces_and_minima
+from suspension.least_force import DIGITS_LOST, distance_over, forces_and_minima, sample_count
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
@@ -42,6 +42,7 @@ __all__ = [
 ]
 
 AHEAD = 8.0  # in units of sigma: so far ahead a bump of natural units begins
+MAX_SAMPLES = 2 * 10**7  # of the forces, at all speeds together: half a minute
 SPACING = 0.03  # of the first grid of speeds in `window`, in ln v
 
 
@@ -166,7 +167,7 @@ def way(robot, bump, v, swings=8):
     swings = _checks.nonnegative("swings", swings)
     slowest = np.abs(robot.eigenvalues).min()
     passed = bump.centre + robot.L1 + AHEAD * bump.sigma
-    return passed + swings * 2 * np.pi / slowest * _speeds(v)[()]
+    return passed + swings * 2 * np.pi / slowest * _positive("v", v)[()]
 
 
 def highest_bump(robot, bump, v, *, distance=None):
@@ -200,30 +201,41 @@ def highest_bump(robot, bump, v, *, distance=None):
     Examples
     --------
     >>> highest_bump(Robot(800, 800), GaussianBump(), [0.25, 1.2, 5, 10]).round(4)
-    array([0.1205, 0.0056, 0.0149, 0.0333])
+    array([0.1175, 0.0056, 0.0149, 0.0332])
     """
-    _checks.instance("robot", robot, Robot)
-    _checks.instance("bump", bump, GaussianBump)
-    v = _speeds(v)
-    if distance is None:
-        distance = distance_over(robot, bump)
-    way = _checks.array("distance", distance)
-    if not (way > 0).all():
-        raise ValueError(f"distance must be > 0, got {way.min():g}")
-    try:
-        v, way = np.broadcast_arrays(v, way)
-    except ValueError:
-        raise ValueError(
-            f"distance must have a shape that broadcasts with that of v, {v.shape}, got {way.shape}"
-        ) from None
+    v, distance = _runs(robot, bump, _positive("v", v), distance)
     load = robot.C @ robot.equilibrium
     light = replace(robot, g=0)  # its forces are those of the bump alone, with all their digits
     bump = replace(bump, height=1.0)
     heights = [
         _least_ratio(load, Crossing(light, bump, speed), length / speed)
-        for speed, length in zip(v.flat, way.flat)
+        for speed, length in zip(v.flat, distance.flat)
     ]
     return np.reshape(heights, v.shape)[()]
+
+
+def _runs(robot, bump, v, distance):
+    """Speeds and distances of the same shape, of runs that are not too long together."""
+    if distance is None:
+        distance = distance_over(robot, bump)
+    distance = _positive("distance", distance)
+    for shortest in [distance.min()] if distance.size else []:
+        distance_over(robot, bump, shortest)  # no wheel may stand on the bump at the start
+    try:
+        v, distance = np.broadcast_arrays(v, distance)
+    except ValueError:
+        raise ValueError(
+            f"distance must have a shape that goes with that of v, {v.shape}, got {distance.shape}"
+        ) from None
+    with np.errstate(over="ignore"):
+        needed = np.sum(sample_count(robot, v, distance))
+    if not needed <= MAX_SAMPLES:
+        raise ValueError(
+            f"v must be so few or so high, or distance so short, that at most {MAX_SAMPLES:.0e} "
+            f"samples of the forces are needed, got {v.size} speeds from {v.min():g} m/s and "
+            f"distances up to {distance.max():g} m: {needed:.2g}"
+        )
+    return v, distance
 
 
 def _least_ratio(load, crossing, tfinal):
@@ -254,23 +266,24 @@ def follow(nu, j):
     j : float
         Inertia ``Izz / (m L^2)``, > 0.
     """
-    return 2 / ((1 + _checks.positive("j", j)) * _speeds(nu, "nu")[()] ** 2)
+    return 2 / ((1 + _checks.positive("j", j)) * _positive("nu", nu)[()] ** 2)
 
 
 def throw(nu):
     """The highest bump that is over before the body moves: a kick, then free swing.
 
     Each wheel hands over the momentum of its spring's force; two kicks at once lift the body
-    without turning it. ``eta* = nu / sqrt(2 pi)``, too high by a part ``lam / (j nu)``. It holds for
-    ``nu`` well above 1 and lam / j, without damping. For j = 1 the wheels do not feel each other,
-    and ``nu`` above 1 is enough (the part is ``1 / (2 nu^2)``, too low).
+    without turning it. ``eta* = nu / sqrt(2 pi)``, too high by a part ``lam / (j nu)`` after a long
+    look. It holds for ``nu`` well above 1 and lam / j and little damping, which raises it by a part
+    ``pi zeta / 2``. For j = 1 the wheels do not feel each other, and ``nu`` above 1 is enough: then
+    it is too low, by a part ``1 / (2 nu^2)``.
 
     Parameters
     ----------
     nu : array_like
         Speed ``v / (sigma omega0)``, > 0.
     """
-    return _speeds(nu, "nu")[()] / np.sqrt(2 * np.pi)
+    return _positive("nu", nu)[()] / np.sqrt(2 * np.pi)
 
 
 def skim(nu, zeta):
@@ -286,15 +299,16 @@ def skim(nu, zeta):
     zeta : float
         Damping ``c / sqrt(2 k m)``, > 0.
     """
-    return np.sqrt(np.e) / (2 * _checks.positive("zeta", zeta) * _speeds(nu, "nu")[()])
+    return np.sqrt(np.e) / (2 * _checks.positive("zeta", zeta) * _positive("nu", nu)[()])
 
 
 def still(nu, zeta):
     """The highest bump under a body that stands still, with the spring that `skim` leaves out.
 
-    ``n = 1 + eta exp(-s^2 / 2) (1 - 2 zeta nu s)`` is least at ``s = (1 + sqrt(1 + 4 a^2)) / 2a`` with
-    ``a = 2 zeta nu``, whence ``eta* = exp(s^2 / 2) / (a s - 1)``. It holds for ``nu`` well above 1
-    and ``(1 + 1/j) zeta`` as long as the swing that follows takes less from a wheel (`throw`).
+    ``n = 1 + eta exp(-s^2 / 2) (1 - a s)`` with ``a = 2 zeta nu`` is least at
+    ``s = (1 + sqrt(1 + 4 a^2)) / 2a``, whence ``eta* = exp(s^2 / 2) / (a s - 1)``. It holds for
+    ``nu`` well above 1 and ``(1 + 1/j) zeta``, where it is lower than what the swing that follows
+    allows (`throw`).
 
     Parameters
     ----------
@@ -303,10 +317,14 @@ def still(nu, zeta):
     zeta : float
         Damping ``c / sqrt(2 k m)``, > 0.
     """
-    a = 2 * _checks.positive("zeta", zeta) * _speeds(nu, "nu")[()]
-    s = (1 + np.sqrt(1 + 4 * a * a)) / (2 * a)
-    with np.errstate(over="ignore"):  # no height that a number can tell
-        return np.exp(s * s / 2) / (a * s - 1)
+    with np.errstate(over="ignore"):  # so low a speed that no number tells the height
+        return np.exp(_log_still(2 * _checks.positive("zeta", zeta) * _positive("nu", nu)[()]))
+
+
+def _log_still(a):
+    """Logarithm of the height of `still`, from ``a = 2 zeta nu``."""
+    root = np.sqrt(1 + 4 * a * a)
+    return (1 + root) ** 2 / (8 * a * a) - np.log(2 * a * a / (1 + root))
 
 
 def comb(nu, j, lam):
@@ -329,7 +347,7 @@ def comb(nu, j, lam):
     j, lam : float
         Inertia ``Izz / (m L^2)`` and wheelbase ``L / sigma``, > 0.
     """
-    nu = _speeds(nu, "nu")[()]
+    nu = _positive("nu", nu)[()]
     j, lam = _checks.positive("j", j), _checks.positive("lam", lam)
     heave = np.abs(np.cos(lam / nu)) * np.exp(-1 / (2 * nu**2))
     pitch = np.abs(np.sin(lam / (np.sqrt(j) * nu))) * np.exp(-1 / (2 * j * nu**2)) / np.sqrt(j)
@@ -352,12 +370,11 @@ def window_limit(zeta):
     """
     zeta = _checks.positive("zeta", zeta)
 
-    def above(x):  # ln(still / throw), falling
-        a = np.exp(x)
-        s = (1 + np.sqrt(1 + 4 * a * a)) / (2 * a)
-        return s * s / 2 - np.log(a * s - 1) - np.log(throw(a / (2 * zeta)))
+    def above(x):  # how far `still` lies above `throw` at a = exp(x), logarithmic; it falls
+        return _log_still(np.exp(x)) - np.log(throw(np.exp(x) / (2 * zeta)))
 
-    nu = np.exp(brentq(above, -9, 9 + np.log(1 + zeta), xtol=1e-14)) / (2 * zeta)
+    far = 10 + abs(np.log(zeta))
+    nu = np.exp(brentq(above, -far, far, xtol=1e-14)) / (2 * zeta)
     return float(nu), float(throw(nu))
 
 
@@ -372,8 +389,8 @@ def closing_limit(eta):
         Height of the bump over the sag, > 0.
     """
     eta = _checks.positive("eta", eta)
-    low, high = 1e-4, 10 * (1 + 1 / eta)
-    a = brentq(lambda a: np.log(still(a / 2, 1) / eta) if a > 0.05 else 1.0, low, high, xtol=1e-14)
+    far = 10 + abs(np.log(eta))
+    a = np.exp(brentq(lambda x: _log_still(np.exp(x)) - np.log(eta), -far, far, xtol=1e-14))
     return float(a / (2 * np.sqrt(2 * np.pi) * eta))
 
 
@@ -396,11 +413,12 @@ def window(robot, bump, vmin, vmax, *, distance=None):
         the window's height is larger than its own.
     """
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+    if not (distance is None or callable(distance)):
+        distance = _checks.positive("distance", distance)
 
     def height(v):
-        return highest_bump(
-            robot, bump, v, distance=distance(v) if callable(distance) else distance
-        )
+        far = distance(v) if callable(distance) else distance
+        return highest_bump(robot, bump, v, distance=far)
 
     v = np.geomspace(vmin, vmax, 3 + int(np.log(vmax / vmin) / SPACING))
     heights = height(v)
@@ -444,9 +462,11 @@ def closing(robot, bump, vmin, vmax, *, distance=None):
         If the robot is not symmetric, or the window does not close between a hundredth and a
         hundred times the damping of `closing_limit`.
     """
-    _symmetric(robot)
+    eta = groups(robot, bump, 1.0).eta
+    vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+    if not eta > 0:
+        raise ValueError(f"bump must have a height > 0, got {bump}")
     critical = np.sqrt(2 * robot.k1 * robot.m)
-    eta = groups(robot, bump, vmin).eta
 
     def above(x):
         c = np.exp(x) * critical
@@ -459,7 +479,7 @@ def closing(robot, bump, vmin, vmax, *, distance=None):
         if above(x + step) * step < 0:
             return float(np.exp(brentq(above, *sorted((x, x + step)), xtol=1e-8)))
     raise ValueError(
-        f"bump must be one for which the window closes between {vmin:g} and {vmax:g} m/s, got {bump}"
+        f"bump must be one whose window closes between {vmin:g} and {vmax:g} m/s, got {bump}"
     )
 
 
@@ -473,8 +493,8 @@ def _symmetric(robot):
         )
 
 
-def _speeds(v, name="v"):
-    v = _checks.array(name, v)
-    if not (v > 0).all():
-        raise ValueError(f"{name} must be > 0, got {v.min():g}")
-    return v
+def _positive(name, value):
+    value = _checks.array(name, value)
+    if not (value > 0).all():
+        raise ValueError(f"{name} must be > 0, got {value.min():g}")
+    return value
