@@ -395,7 +395,7 @@ def closing_limit(eta):
 
 
 def window(robot, bump, vmin, vmax, *, distance=None):
-    """Where "faster is safer" is most so: the safest speed beyond the slowest loss of contact.
+    """Where "faster is safer" is most so: the safest speed beyond the slowest that loses contact.
 
     Parameters
     ----------
@@ -404,13 +404,13 @@ def window(robot, bump, vmin, vmax, *, distance=None):
     vmin, vmax : float
         Range of speeds, m/s, 0 < vmin < vmax.
     distance : float or callable, optional
-        As for `highest_bump`, or a function of the speed.
+        As for `highest_bump`, or a function of the speeds.
 
     Returns
     -------
     window : Window or None
-        None if no speed loses contact. The bump itself is crossed with contact in the window if
-        the window's height is larger than its own.
+        None if no speed loses contact, or none beyond the slowest that does is safer. The window is
+        open, the bump itself is crossed there with contact, if its height is more than the bump's.
     """
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     if not (distance is None or callable(distance)):
@@ -422,12 +422,13 @@ def window(robot, bump, vmin, vmax, *, distance=None):
 
     v = np.geomspace(vmin, vmax, 3 + int(np.log(vmax / vmin) / SPACING))
     heights = height(v)
-    lost = heights < bump.height
-    if not lost.any():
+    lost = np.flatnonzero(heights <= bump.height)
+    if not len(lost):
         return None
-    first = int(np.argmax(lost))
-    best = first + int(np.argmax(heights[first:]))
-    if best in (first, len(v) - 1):
+    best = lost[0] + int(np.argmax(heights[lost[0] :]))
+    if best == lost[0]:
+        return None
+    if best == len(v) - 1:
         return Window(float(v[best]), float(heights[best]))
     top = minimize_scalar(
         lambda x: -height(np.exp(x)),
@@ -439,7 +440,7 @@ def window(robot, bump, vmin, vmax, *, distance=None):
 
 
 def closing(robot, bump, vmin, vmax, *, distance=None):
-    """The damping above which no speed beyond the slowest loss is safe, exactly.
+    """The damping above which the window is closed for a bump, exactly.
 
     Parameters
     ----------
@@ -459,17 +460,16 @@ def closing(robot, bump, vmin, vmax, *, distance=None):
     Raises
     ------
     ValueError
-        If the robot is not symmetric, or the window does not close between a hundredth and a
-        hundred times the damping of `closing_limit`.
+        If the robot is not symmetric, or no window closes on the bump at a damping between a
+        hundredth and a hundred times that of `closing_limit`.
     """
     eta = groups(robot, bump, 1.0).eta
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     if not eta > 0:
         raise ValueError(f"bump must have a height > 0, got {bump}")
-    critical = np.sqrt(2 * robot.k1 * robot.m)
 
     def above(x):
-        c = np.exp(x) * critical
+        c = np.exp(x) * np.sqrt(2 * robot.k1 * robot.m)
         top = window(replace(robot, c1=c, c2=c), bump, vmin, vmax, distance=distance)
         return -1.0 if top is None else np.log(top.height / bump.height)
 

@@ -323,8 +323,18 @@ def test_the_window_is_the_highest_bump_beyond_the_first_loss():
     near(highest_bump(ROBOT, BUMP, top.v), top.height, 1e-12)
 
 
-def test_a_bump_that_lifts_no_wheel_has_no_window():
+@pytest.mark.parametrize("height, opened", [(0.01, True), (0.048, True), (0.051, False)])
+def test_the_window_is_open_where_regimes_go_from_lost_to_kept(height, opened):
+    bump = replace(BUMP, height=height)
+    found = regimes(ROBOT, bump, 1.5, 30)
+    top = window(ROBOT, bump, 1.5, 30)
+    assert (top.height > height) == opened
+    assert (found.lost[:-1] & ~found.lost[1:]).any() == opened
+
+
+def test_there_is_no_window_without_a_loss_nor_with_strong_dampers():
     assert window(ROBOT, replace(BUMP, height=1e-4), 0.1, 10) is None
+    assert window(replace(ROBOT, c1=25, c2=25), BUMP, 0.2, 30) is None
 
 
 def test_without_damping_the_window_is_open_to_the_end():
