@@ -38,16 +38,20 @@ def _along(ax, x, y, text, **style):
 
 
 def _at_the_end(ax, x, y, text, **style):
-    """Write beside the right end of a curve, or where it leaves the axes above."""
+    """Write beside the right end of a curve, or where it leaves the axes above or below."""
     low, high = ax.get_ylim()
-    if low < y[-1] < high:
+    seen = np.flatnonzero((low < y) & (y < high))
+    if not len(seen):
+        return
+    if seen[-1] == len(x) - 1:
         ax.text(x[-1], y[-1], f" {text}", va="center", **style)
     elif y[-1] >= high:
-        i = np.flatnonzero(y < high)[-1]
-        ax.text(x[i], high, text, ha="center", va="bottom", **style)
+        ax.text(x[seen[-1]], high, text, ha="center", va="bottom", **style)
+    else:
+        ax.text(0.75 * x[seen[-1]], low * 1.1, text, ha="right", va="bottom", **style)
 
 
-def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.05, 300), ax=None):
+def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.03, 300), ax=None):
     """The highest bump that is crossed with contact against speed, for several dampings.
 
     Parameters
@@ -59,8 +63,9 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.05, 300), 
     limits : dict of str to ndarray, shape (n,)
         By name, drawn dashed.
     bump : tuple, optional
-        Height of a bump over the sag; speeds asked for and whether contact is lost at each; and
-        critical speeds. Drawn as a line across, with marks.
+        Height of a bump over the sag; speeds asked for and whether contact is lost at each;
+        critical speeds; and the ranges in which contact is kept, shape (m, 2). Drawn as a line
+        across, with marks, and thick where kept.
     own : float, optional
         The damping to stress: above its curve contact is lost.
     heights : pair of float
@@ -77,7 +82,9 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.05, 300), 
             weight = "bold" if stressed else "normal"
             _at_the_end(ax, nu, eta, label, color=style["color"], fontsize=8.5, weight=weight)
     if own is not None:
-        ax.fill_between(nu, curves[own], heights[1], color=LOST, lw=0, zorder=0)
+        ax.fill_between(
+            nu, np.minimum(curves[own], heights[1]), heights[1], color=LOST, lw=0, zorder=0
+        )
         words = {"transform": ax.transAxes, "color": "0.3", "fontsize": 10, "style": "italic"}
         ax.text(0.42, 0.93, "contact lost", ha="center", **words)
         ax.text(0.03, 0.05, "kept", **words)
@@ -89,9 +96,11 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.05, 300), 
     return ax
 
 
-def _bump_across(ax, eta, asked, lost, critical):
-    ax.axhline(eta, color=COLOURS[1], lw=1.4, zorder=3.5)
-    ax.text(ax.get_xlim()[0] * 1.1, eta * 1.08, "the bump", color=COLOURS[1], va="bottom", zorder=5)
+def _bump_across(ax, eta, asked, lost, critical, kept):
+    ax.axhline(eta, color=COLOURS[1], lw=1.4, ls="--", zorder=3.5)
+    for span in kept:
+        ax.plot(span, [eta, eta], color=COLOURS[0], lw=3.2, solid_capstyle="butt", zorder=3.6)
+    ax.text(ax.get_xlim()[1], eta, " the bump", color=COLOURS[1], va="center", weight="bold")
     ax.plot(critical, np.full(len(critical), eta), "D", color="k", ms=5, zorder=5)
     marks = {"ls": "", "mec": "k", "ms": 8, "zorder": 4}
     for gone, face, label in ((False, "white", "asked, kept"), (True, COLOURS[1], "asked, lost")):
