@@ -12,6 +12,7 @@ What goes beyond:
 - `exact`: the crossing of a bump in closed form
 - `least_force`, `critical`: its least forces, and the speeds at which they vanish
 - `contact`: all that answers "does a wheel leave the ground?", in one place
+- `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
 - `sweep`: very many runs at once
 - `frequency`: what the robot makes of waves in the road, and of rough roads
@@ -38,6 +39,7 @@ from suspension.least_force import margin
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
+from suspension.similarity import highest_bump
 from suspension.simulation import simulate
 
 __version__ = "2.0.0"
@@ -54,6 +56,7 @@ __all__ = [
     "critical_speeds",
     "explore",
     "fly",
+    "highest_bump",
     "margin",
     "over_bump",
     "regimes",

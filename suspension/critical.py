@@ -8,6 +8,8 @@ from scipy.optimize import brentq
 
 from suspension import _checks
 from suspension.least_force import distance_over, margin, sample_count
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 
 __all__ = ["critical_speeds", "critical_stiffness", "sensitivity", "zeros"]
 

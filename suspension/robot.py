@@ -159,7 +159,7 @@ class Robot:
         return self._eigen[1:]
 
     @_constant
-    def heave_share(self):
+    def heave_share(self) -> np.ndarray:
         """How much of each mode is heave, 0 to 1, shape (4,).
 
         Heave and pitch are compared at the wheel that is further from the centre of mass.

@@ -2,7 +2,7 @@
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
 the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
-`speeds`, `measured`, `choice`, and `robot`, the robot itself, still or moving.
+`speeds`, `similarity`, `measured`, `choice`, and `robot`, the robot itself, still or moving.
 """
 
 from suspension.figures.choice import (
@@ -31,6 +31,7 @@ from suspension.figures.regression import (
 )
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
+from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
 
@@ -39,6 +40,8 @@ __all__ = [
     "animate_robot",
     "film",
     "plot_all_forces",
+    "plot_chart",
+    "plot_comb",
     "plot_confidence_region",
     "plot_contact_states",
     "plot_demand_map",
@@ -72,4 +75,6 @@ __all__ = [
     "plot_stop_regions",
     "plot_stop_stiffness",
     "plot_travel",
+    "plot_vehicles",
+    "plot_window",
 ]

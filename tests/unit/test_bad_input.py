@@ -30,6 +30,7 @@ from suspension import (
     exact,
     frequency,
     measured,
+    similarity,
     springs,
     travel,
 )
@@ -600,6 +601,66 @@ TABLE = [
             (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_A_NUMBER}),
             (choice.exclusion, {}, {}),
         )
+    ),
+    Row(
+        "groups",
+        similarity.groups,
+        CROSS,
+        {"v": NOT_POSITIVE, "robot": [suspension.Robot(1, 2), suspension.Robot(1, 1, g=0)]},
+        NO_CROSSING,
+    ),
+    Row(
+        "highest_bump",
+        suspension.highest_bump,
+        CROSS | {"v": [1.0, 2.0], "distance": [1.0, 2.0]},
+        {
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3], 1e-9],
+            "distance": [
+                *but(not_an_array([1.0, 2.0]), None),
+                *(0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3], 1e12),
+            ],
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "way",
+        similarity.way,
+        CROSS | {"swings": 2.0},
+        {"v": [*not_an_array(1.0), 0, [1, -1], np.nan], "swings": NOT_NONNEGATIVE},
+        NO_CROSSING,
+    ),
+    Row("follow", similarity.follow, {"nu": 1.0, "j": 1.0}, {"nu": [0, "1"], "j": NOT_POSITIVE}),
+    Row("throw", similarity.throw, {"nu": 1.0}, {"nu": [*not_an_array(1.0), 0, -1, np.inf]}),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"nu": 1.0, "zeta": 0.1},
+            {"nu": [0, "1"], "zeta": NOT_POSITIVE},
+        )
+        for function in (similarity.skim, similarity.still)
+    ),
+    Row(
+        "comb",
+        similarity.comb,
+        {"nu": 1.0, "j": 1.0, "lam": 3.0},
+        {"nu": [0, "1"], "j": NOT_POSITIVE, "lam": NOT_POSITIVE},
+    ),
+    Row("window_limit", similarity.window_limit, {"zeta": 0.1}, {"zeta": NOT_POSITIVE}),
+    Row("closing_limit", similarity.closing_limit, {"eta": 3.0}, {"eta": NOT_POSITIVE}),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "bump": BUMP, "vmin": 6.0, "vmax": 20.0, "distance": 1.0},
+            {
+                "vmin": [*NOT_POSITIVE, 20, 21],
+                "vmax": [*NOT_POSITIVE, 6, 0.1],
+                "distance": but(NOT_POSITIVE, None, Thing, len),
+            },
+            NO_CROSSING,
+        )
+        for function in (similarity.window, similarity.closing)
     ),
     Row(
         "travel",
