@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from suspension import _checks
-from suspension.least_force import margin
+from suspension.least_force import distance_over, margin
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.sweep import peaks
@@ -142,7 +142,7 @@ def efficient(costs):
     return best
 
 
-def cheapest(robot, bump, v, k, c, reserve=0.0):
+def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     """The least change of stiffness and damping that keeps contact at all of several speeds.
 
     The suspensions of the grid are tried by exact margins, those near the robot's first. From the
@@ -160,6 +160,9 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
         Stiffness, N/m, and damping, N s/m, > 0, of the grid, each in order.
     reserve : float
         What the margin must be at every speed, N.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
@@ -182,17 +185,21 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     start = _own(robot, bump)
     v, k, c = _grid(v, k, c)
     reserve = _checks.number("reserve", reserve)
+    distance = distance_over(robot, bump, distance)
+
+    def margin_of(fitted, speed):
+        return margin(fitted, bump, speed, distance=distance)
 
     # The speed with the least margin comes first: most suspensions fail there.
-    v = sorted(v, key=lambda speed: margin(robot, bump, speed))
+    v = sorted(v, key=lambda speed: margin_of(robot, speed))
 
     def spare(x):
         changed = fitted_with(robot, *np.exp(x))
-        return np.array([margin(changed, bump, speed) for speed in v]) - reserve
+        return np.array([margin_of(changed, speed) for speed in v]) - reserve
 
     def keeps(x):
         changed = fitted_with(robot, *np.exp(x))
-        return all(margin(changed, bump, speed) >= reserve for speed in v)
+        return all(margin_of(changed, speed) >= reserve for speed in v)
 
     if keeps(start):
         return Choice(robot, 0.0, float(spare(start).min() + reserve))
@@ -219,7 +226,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
 
 
-def exclusion(robot, bump, v, k, c):
+def exclusion(robot, bump, v, k, c, *, distance=None):
     """Is contact lost at one of several speeds, at least, whatever the suspension?
 
     The worst margin is a continuous function of ln k and ln c. Between points of a grid it can
@@ -227,7 +234,7 @@ def exclusion(robot, bump, v, k, c):
 
     Parameters
     ----------
-    robot, bump, v, k, c
+    robot, bump, v, k, c, distance
         As in `cheapest`; the grid has two points and more each way.
 
     Returns
@@ -239,9 +246,13 @@ def exclusion(robot, bump, v, k, c):
     v, k, c = _grid(v, k, c)
     if min(len(k), len(c)) < 2:
         raise ValueError(f"k and c must have two values and more, got {len(k)} and {len(c)}")
-    worst = np.array(
-        [[min(margin(fitted_with(robot, a, b), bump, u) for u in v) for a in k] for b in c]
-    )
+    distance = distance_over(robot, bump, distance)
+
+    def worst_margin(k, c):
+        fitted = fitted_with(robot, k, c)
+        return min(margin(fitted, bump, speed, distance=distance) for speed in v)
+
+    worst = np.array([[worst_margin(a, b) for a in k] for b in c])
     x, y = np.log(k), np.log(c)
     # At each point the steepest chords towards its neighbours, in both directions.
     across = np.pad(np.abs(np.diff(worst, axis=1) / np.diff(x)), ((0, 0), (1, 1)))

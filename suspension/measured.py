@@ -13,7 +13,7 @@ import numpy as np
 from scipy import stats
 
 from suspension import _checks
-from suspension.least_force import COURSE
+from suspension.problem import DISTANCE as COURSE
 from suspension.road import profile
 from suspension.robot import Robot
 from suspension.springs import SpringFit

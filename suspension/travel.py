@@ -13,7 +13,7 @@ from suspension.contact import critical_speeds, exact_loss, margin, minima
 from suspension.critical import zeros
 from suspension.exact import over_bump
 from suspension.forces import WHEEL
-from suspension.least_force import COURSE
+from suspension.least_force import distance_over
 from suspension.road import road_input
 
 __all__ = [
@@ -39,7 +39,7 @@ class Travel(NamedTuple):
     pitch: float
 
 
-def travel(robot, bump, v, samples=2001):
+def travel(robot, bump, v, samples=2001, *, distance=None):
     """How far springs and body move while both wheels press on the ground.
 
     Parameters
@@ -49,7 +49,9 @@ def travel(robot, bump, v, samples=2001):
     v : float
         Speed, m/s, > 0.
     samples : int
-        Equally spaced times from 0 to the first loss of contact, or to 1.25 m / v.
+        Equally spaced times from 0 to the first loss of contact, or to the end of the run.
+    distance : float, optional
+        How far it goes, m: 1.25 m if the whole bump lies within (`distance_over`).
 
     Returns
     -------
@@ -59,8 +61,9 @@ def travel(robot, bump, v, samples=2001):
     samples = _checks.whole("samples", samples, 2)
     if samples > MAX_SAMPLES:
         raise ValueError(f"samples must be at most {MAX_SAMPLES}, got {samples}")
-    loss = exact_loss(robot, bump, v)
-    t = np.linspace(0, loss.t if loss else COURSE / v, samples)
+    distance = distance_over(robot, bump, distance)
+    loss = exact_loss(robot, bump, v, distance=distance)
+    t = np.linspace(0, loss.t if loss else distance / v, samples)
     W = over_bump(robot, bump, v, t)
     compression = _compression(robot, bump, v, t, W)
     return Travel(compression.max(), max(-compression.min(), 0.0), np.abs(W[2]).max())
@@ -72,7 +75,7 @@ def _compression(robot, bump, v, t, W):
     return road_input(robot, bump, v, t)[:2] - ends
 
 
-def overtravel(robot, bump, limit, vmin, vmax):
+def overtravel(robot, bump, limit, vmin, vmax, *, distance=None):
     """The ranges of speed in which a spring is compressed by more than `limit`.
 
     Only what happens before a loss of contact counts. The compression until then jumps where the
@@ -86,6 +89,8 @@ def overtravel(robot, bump, limit, vmin, vmax):
         Compression, m, > 0.
     vmin, vmax : float
         Range of speeds, m/s, 0 < vmin < vmax.
+    distance : float, optional
+        As in `travel`.
 
     Returns
     -------
@@ -104,11 +109,13 @@ def overtravel(robot, bump, limit, vmin, vmax):
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
 
     def excess(x):
-        return travel(robot, bump, np.exp(x), samples=1001).compression / limit - 1
+        most = travel(robot, bump, np.exp(x), 1001, distance=distance).compression
+        return most / limit - 1
 
     samples = 2 + int(40 * np.log(vmax / vmin))
     x = np.linspace(np.log(vmin), np.log(vmax), samples)
-    turns = np.log(critical_speeds(robot, bump, vmin, vmax))  # the moment of the loss jumps there
+    # The moment of the loss jumps at a critical speed.
+    turns = np.log(critical_speeds(robot, bump, vmin, vmax, distance=distance))
     edges = np.array([vmin, *np.exp(zeros(excess, np.union1d(x, turns))), vmax])
     inside = [excess(np.log(middle)) > 0 for middle in np.sqrt(edges[1:] * edges[:-1])]
     ranges = []
@@ -120,7 +127,7 @@ def overtravel(robot, bump, limit, vmin, vmax):
     return np.array(ranges).reshape(-1, 2)
 
 
-def margin_map(robot, bump, v, k):
+def margin_map(robot, bump, v, k, *, distance=None):
     """The margin over speed and stiffness.
 
     Parameters
@@ -129,6 +136,8 @@ def margin_map(robot, bump, v, k):
     bump : GaussianBump
     v, k : array_like, shapes (n,) and (m,)
         Speeds, m/s, and stiffnesses of all springs, N/m.
+    distance : float, optional
+        As in `travel`.
 
     Returns
     -------
@@ -136,14 +145,19 @@ def margin_map(robot, bump, v, k):
         N.
     """
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
-    return np.array([[margin(other, bump, speed) for speed in v] for other in robots])
+    return np.array(
+        [[margin(other, bump, speed, distance=distance) for speed in v] for other in robots]
+    )
 
 
-def compression_map(robot, bump, v, k):
+def compression_map(robot, bump, v, k, *, distance=None):
     """The largest compression of a spring, in m, over speed and stiffness, as `margin_map`."""
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
     return np.array(
-        [[travel(other, bump, speed, 501).compression for speed in v] for other in robots]
+        [
+            [travel(other, bump, speed, 501, distance=distance).compression for speed in v]
+            for other in robots
+        ]
     )
 
 
@@ -155,9 +169,12 @@ class Balance(NamedTuple):
     damper: float
 
 
-def balance(robot, bump, v):
-    """The two parts of the least normal force on the way over the bump, at `v` in m/s."""
-    least = min(minima(robot, bump, v), key=lambda minimum: minimum.force)
+def balance(robot, bump, v, *, distance=None):
+    """The two parts of the least normal force on the way over the bump, at `v` in m/s.
+
+    `distance` is that of `travel`.
+    """
+    least = min(minima(robot, bump, v, distance=distance), key=lambda minimum: minimum.force)
     t = np.array([least.t])
     i = least.wheel - 1
     compression = _compression(robot, bump, v, t, over_bump(robot, bump, v, t))
@@ -165,7 +182,7 @@ def balance(robot, bump, v):
     return Balance(least.wheel, spring, least.force - spring)
 
 
-def moments(flight, robot, bump):
+def moments(flight, robot, bump, *, distance=None):
     """The moments on the way over the bump that tell the story of a flight, with words for each.
 
     Parameters
@@ -173,6 +190,8 @@ def moments(flight, robot, bump):
     flight : suspension.flight.Flight
     robot : Robot
     bump : GaussianBump
+    distance : float, optional
+        How far the story goes, m, as in `travel`.
 
     Returns
     -------
@@ -182,12 +201,11 @@ def moments(flight, robot, bump):
         Without: the front wheel at the foot and on the top of the bump, the body over the top, the
         rear wheel on it, and both past it.
     """
-    v = flight.v
+    v = _checks.positive("flight's v", flight.v)
+    end = distance_over(robot, bump, distance) / v
     foot = bump.centre - 2 * bump.sigma
     told = {(foot - robot.L2) / v: f"the {WHEEL[2]} wheel reaches the bump"}
-    lift_offs = [
-        event for event in flight.events if event.kind == "lift-off" and event.t <= COURSE / v
-    ]
+    lift_offs = [event for event in flight.events if event.kind == "lift-off" and event.t <= end]
     if not lift_offs:
         told[(bump.centre - robot.L2) / v] = f"the {WHEEL[2]} wheel is on its top"
         told[bump.centre / v] = "the body is over it"
@@ -199,18 +217,15 @@ def moments(flight, robot, bump):
     landings = [
         event.t
         for event in flight.events
-        if event.wheel == first.wheel
-        and event.kind == "landing"
-        and first.t < event.t <= COURSE / v
+        if event.wheel == first.wheel and event.kind == "landing" and first.t < event.t <= end
     ]
-    end = landings[0] if landings else COURSE / v
-    gaps = np.where(flight.T <= COURSE / v, flight.gaps, -1)
-    aloft = (flight.T > first.t) & (flight.T < end)
+    gaps = np.where(flight.T <= end, flight.gaps, -1)
+    aloft = (flight.T > first.t) & (flight.T < (landings[0] if landings else end))
     height = np.where(aloft, gaps[first.wheel - 1], 0)
     if height.max() > 0:  # a very short flight has no sample, and a wheel need not rise in it
         told[float(flight.T[height.argmax()])] = "it is at the top of this flight"
     if landings:
-        told[end] = "it lands"
+        told[landings[0]] = "it lands"
     i, j = np.unravel_index(gaps.argmax(), gaps.shape)
     if gaps[i, j] > 0 and float(flight.T[j]) not in told:
         told[float(flight.T[j])] = f"the {WHEEL[i + 1]} wheel is at its highest"

@@ -99,8 +99,12 @@ def _draw_robot(explorer, run, ax):
 def _draw_speeds(explorer, ax):
     robot, road = explorer.robot, explorer.road
     v = np.geomspace(VMIN, VMAX, SPEEDS)
-    least = np.array([[least.force for least in minima(robot, road, speed)] for speed in v]).T
-    critical = np.exp(zeros(lambda x: margin(robot, road, np.exp(x)), np.log(v)))
+    # Until the end of the way, wherever sliders put the bump on it.
+    way = explorer.distance
+    least = np.transpose(
+        [[dip.force for dip in minima(robot, road, speed, way / speed)] for speed in v]
+    )
+    critical = np.exp(zeros(lambda x: margin(robot, road, np.exp(x), way / np.exp(x)), np.log(v)))
     plot_margin(v, least, critical, ASKED, ax=ax)
     ax.legend().remove()
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.least_force import COURSE
+from suspension.problem import DISTANCE
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -65,8 +65,8 @@ def flight_table(flights, robot):
     ways = join(f"{flight.v * duration:.3g}" for flight in flights)
     note = (
         f"Counted over {quantity(duration, 's')}, a way of {ways}{SPACE}m; the asked runs end at "
-        f"{COURSE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those at "
-        "rest."
+        f"{DISTANCE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those "
+        "at rest."
     )
     return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 

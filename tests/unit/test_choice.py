@@ -7,7 +7,8 @@ import pytest
 
 from suspension.choice import cheapest, demands, efficient, exclusion, fitted_with
 from suspension.exact import Crossing, over_bump
-from suspension.least_force import COURSE, exact_forces, margin
+from suspension.least_force import exact_forces, margin
+from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
@@ -23,7 +24,7 @@ def test_demands_are_the_worst_of_exact_crossings():
         robot = fitted_with(ROBOT, k[j], c[i])
         least, largest, deepest = np.inf, 0, 0
         for speed in v:
-            t = np.linspace(0, COURSE / speed, 20001)
+            t = np.linspace(0, DISTANCE / speed, 20001)
             N = exact_forces(Crossing(robot, BUMP, speed), t)[0]
             W = over_bump(robot, BUMP, speed, t)
             x = np.add.outer(robot.arms, speed * t)
