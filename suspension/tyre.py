@@ -252,7 +252,7 @@ class _Model:
         return J
 
 
-def heaviest_wheel(robot, bump, v, tfinal=None):
+def heaviest_wheel(robot, bump, v, *, distance=None):
     """The mass at which a wheel on a rigid tyre just keeps contact over the bump.
 
     A wheel that stays on the ground moves as the road does, whatever it weighs, and the body does
@@ -268,8 +268,8 @@ def heaviest_wheel(robot, bump, v, tfinal=None):
     bump : GaussianBump
     v : float
         Speed, m/s, > 0.
-    tfinal : float, optional
-        As for `margin`.
+    distance : float, optional
+        How far the run goes, m, as for `margin`.
 
     Returns
     -------
@@ -285,7 +285,7 @@ def heaviest_wheel(robot, bump, v, tfinal=None):
     [inf, 0.0, 0.0082]
     """
     crossing = Crossing(robot, bump, _checks.positive("v", v))
-    t, N = turning_points(crossing, tfinal)
+    t, N = turning_points(crossing, distance=distance)
     if N.min() <= 0:
         return 0.0
 
