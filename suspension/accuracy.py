@@ -11,7 +11,7 @@ from suspension.contact import exact_loss, is_lost, margin, normal_forces
 from suspension.course import RK4, make_forcing
 from suspension.exact import over_bump
 from suspension.flight import fly, make_flight_gfunc
-from suspension.least_force import distance_over, duration
+from suspension.least_force import distance_over, duration, sample_count
 from suspension.simulation import simulate
 
 __all__ = [
@@ -30,6 +30,9 @@ __all__ = [
     "seen_mode",
     "solve_ivp_errors",
 ]
+
+
+MAX_SAMPLES = 10**5
 
 
 class Errors(NamedTuple):
@@ -149,7 +152,7 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
     evaluations, errors : ndarray, shape (len(tolerances),)
         Right-hand sides evaluated, and the error at 201 times in N.
     """
-    tfinal = duration(robot, bump, v, None, distance)
+    tfinal = _duration(robot, bump, v, distance)
     T = np.linspace(0, tfinal, 201)
     N = _truth(robot, bump, v, T)[1]
     options = {} if method in ("RK45", "DOP853") else {"jac": lambda t, w: robot.A}
@@ -163,6 +166,18 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
     return np.array(costs), np.array(worst)
 
 
+def _duration(robot, bump, v, distance):
+    """How long a run of `solve_ivp` lasts, s, refused if it would take minutes."""
+    tfinal = duration(robot, bump, _checks.positive("v", v), None, distance)
+    swings = sample_count(robot, v, v * tfinal)
+    if not swings <= MAX_SAMPLES:
+        raise ValueError(
+            f"distance must be so short, or v so high, that at most {MAX_SAMPLES} samples follow "
+            f"the swings of the modes, got v={v:g}, distance={v * tfinal:g}: {swings:.3g}"
+        )
+    return tfinal
+
+
 def _solve_ivp(robot, bump, v, tfinal, **options):
     F = make_forcing(robot, bump, v)
     span = 0, tfinal
@@ -171,7 +186,7 @@ def _solve_ivp(robot, bump, v, tfinal, **options):
 
 def disagreement(robot, bump, v, *, distance=None):
     """Largest difference, in SI units, of the closed form from DOP853 at a tolerance of 1e-12."""
-    tfinal = duration(robot, bump, v, None, distance)
+    tfinal = _duration(robot, bump, v, distance)
     T = np.linspace(0, tfinal, 101)
     tight = {"rtol": 1e-12, "atol": 1e-14, "max_step": bump.sigma / v}
     run = _solve_ivp(robot, bump, v, tfinal, method="DOP853", t_eval=T, **tight)
@@ -188,7 +203,7 @@ def event_run(robot, bump, v, *, distance=None, **options):
     def force(wheel):
         return lambda t, w: normal_forces(robot, bump, v, [t], w[:, None])[wheel, 0]
 
-    tfinal = duration(robot, bump, v, None, distance)
+    tfinal = _duration(robot, bump, v, distance)
     run = _solve_ivp(robot, bump, v, tfinal, events=[force(0), force(1)], **options)
     return run, any(times.size for times in run.t_events)
 

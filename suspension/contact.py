@@ -45,7 +45,7 @@ __all__ = [
 
 def is_lost(margin):
     """The verdict: whether a margin in N, a number or an array, means that contact is lost."""
-    return margin <= 0
+    return _checks.array("margin", margin) <= 0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,7 +90,7 @@ class Regimes:
 
     def __post_init__(self):
         edges = _checks.array("edges", self.edges, (None,))
-        if len(edges) < 2 or not (np.diff(edges) > 0).all() or not edges[0] > 0:
+        if len(edges) < 2 or not edges[0] > 0 or not (np.diff(edges) > 0).all():
             raise ValueError(f"edges must be two numbers or more, > 0 and in order, got {edges}")
         lost = _checks.array("lost", self.lost, (len(edges) - 1,))
         if not np.isin(lost, (0, 1)).all():
@@ -173,8 +173,9 @@ def regimes(robot, bump, vmin, vmax, *, distance=None):
     """
     distance = distance_over(robot, bump, distance)
     critical = critical_speeds(robot, bump, vmin, vmax, distance=distance)
+    inside = critical[(vmin < critical) & (critical < vmax)]
     return regimes_between(
-        lambda v: margin(robot, bump, v, distance=distance), [vmin, *critical, vmax]
+        lambda v: margin(robot, bump, v, distance=distance), [vmin, *inside, vmax]
     )
 
 
@@ -202,7 +203,9 @@ def regimes_between(margin_at, edges, unit="m/s"):
       lost from 300 to 1000 N/m
     )
     """
-    edges = np.unique(_checks.array("edges", edges, (None,)))
+    _checks.function("margin_at", margin_at, "margin_at(v) -> float")
+    edges = _checks.array("edges", edges, (None,))
+    edges = Regimes(edges, np.zeros(max(0, len(edges) - 1))).edges  # checked
     lost = np.array([is_lost(margin_at(v)) for v in np.sqrt(edges[1:] * edges[:-1])], dtype=bool)
     turns = np.append(True, lost[1:] != lost[:-1])
     return Regimes(np.append(edges[:-1][turns], edges[-1:]), lost[turns], unit)

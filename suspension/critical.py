@@ -48,7 +48,7 @@ def critical_speeds(robot, bump, vmin, vmax, *, distance=None):
     distance = distance_over(robot, bump, distance)
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     cost = np.mean([sample_count(robot, v, distance) for v in np.geomspace(vmin, vmax)])
-    x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost)
+    x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost, distance)
     return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x), distance=distance), x))
 
 
@@ -92,7 +92,7 @@ def critical_stiffness(robot, bump, v, kmin, kmax, *, distance=None):
 
     stiffnesses = np.geomspace(kmin, kmax)
     cost = np.mean([sample_count(with_stiffness(k), v, distance) for k in stiffnesses])
-    x = _logarithmic(robot, bump, "kmin and kmax", kmin, kmax, cost)
+    x = _logarithmic(robot, bump, "kmin and kmax", kmin, kmax, cost, distance)
     return np.exp(zeros(lambda x: margin(with_stiffness(np.exp(x)), bump, v, distance=distance), x))
 
 
@@ -177,7 +177,7 @@ def _largest_nearby(slope):
     return sliding_window_view(padded, 5).max(axis=1)
 
 
-def _logarithmic(robot, bump, names, low, high, cost):
+def _logarithmic(robot, bump, names, low, high, cost, distance):
     """A grid in ln v or ln k, dense enough for every ripple; `cost` is that of one value in it.
 
     The margin ripples with the phase omega (L1 + L2) / v that a mode gains between the wheels. A
@@ -191,6 +191,7 @@ def _logarithmic(robot, bump, names, low, high, cost):
         raise ValueError(
             f"{names} must be so close to each other, and {names.split()[0]} so far from zero, "
             f"that at most {MAX_SAMPLES:.0e} samples of the forces are needed, "
-            f"got {low:g} and {high:g} with sigma={bump.sigma:g}: {needed:.2g}"
+            f"got {low:g} and {high:g} with sigma={bump.sigma:g}, distance={distance:g}: "
+            f"{needed:.2g}"
         )
     return np.linspace(np.log(low), np.log(high), 2 + int(count))

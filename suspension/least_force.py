@@ -299,8 +299,9 @@ def _samples(crossing, tfinal):
     swings = 2.5 * tfinal * np.abs(crossing.lam.imag).max()
     if not swings <= MAX_SAMPLES:
         raise ValueError(
-            "v must be so high, or tfinal so short, that the swings of the modes can be followed "
-            f"with {MAX_SAMPLES} samples, got v={crossing.v:g}, tfinal={tfinal:g}: {swings:.3g}"
+            "v must be so high, or tfinal or distance so short, that the swings of the modes can "
+            f"be followed with {MAX_SAMPLES} samples, got v={crossing.v:g}, tfinal={tfinal:g}: "
+            f"{swings:.3g}"
         )
     swinging = np.linspace(0, tfinal, 2 + int(swings))
     fastest = 0.1 / np.abs(crossing.lam).max()

@@ -193,7 +193,7 @@ def test_a_flat_road_presses_with_half_the_weight():
         ({"v": -1.0}, r"v must be a finite number > 0, got -1\.0"),
         ({"tfinal": 0}, "tfinal must be a finite number > 0, got 0"),
         ({"bump": FlatRoad()}, "bump must be a GaussianBump, got FlatRoad"),
-        ({"v": 1e-7}, r"v must be so high, or tfinal so short, .*: 1.22e\+09"),
+        ({"v": 1e-7}, r"v must be so high, or tfinal or distance so short, .*: 1.22e\+09"),
     ],
 )
 def test_what_cannot_be_is_refused(change, message):
