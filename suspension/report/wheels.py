@@ -173,51 +173,51 @@ def heaviest_caption(asked):
     return Caption(text, alt)
 
 
-def heaviest_sentence(regimes, heaviest, window, robot):
-    """For which wheels it is true that faster is safer.
+def heaviest_sentence(regimes, v, mass, asked, robot):
+    """For which wheels the verdicts of a wheel without mass are true, and whether faster is safer.
 
     Parameters
     ----------
     regimes : Regimes
         Of wheels without mass.
-    heaviest : dict of float to float
-        The heaviest wheel pair, kg, at each asked speed, m/s.
-    window : tuple of two array_like or None
-        Speeds, m/s, and heaviest wheel pairs, kg, between the last loss and the next one above it,
-        where faster is safer; None if contact, once lost, is not found again.
+    v, mass : array_like, shape (n,)
+        Speeds, m/s, dense and within the regimes, and the heaviest wheel pairs there, kg.
+    asked : dict of float to float
+        The heaviest wheel pairs at the asked speeds.
     robot : Robot
     """
+    v, mass = np.asarray(v), np.asarray(mass)
     words = []
-    bound = {v: m for v, m in heaviest.items() if 0 < m < np.inf}
-    free = [v for v, m in heaviest.items() if m == np.inf]
+    free = [speed for speed, m in asked.items() if np.isinf(m)]
     if free:
         words.append(
             f"At {speed_list(free)} the road nowhere falls away faster than gravity pulls, and a "
             "wheel may weigh what it likes."
         )
-    for v, mass in bound.items():
-        words.append(
-            f"At {speed_list([v])} a wheel pair may weigh {grams(mass)}, "
-            f"{percent(mass / robot.m)} of the body, and no more."
-        )
-    if window is None:
-        words.append("Contact, once lost, is not found again at a higher speed here.")
+    words += [
+        f"At {speed_list([speed])} a wheel pair may weigh {grams(m)}, {percent(m / robot.m)} of "
+        "the body, and no more."
+        for speed, m in asked.items()
+        if 0 < m < np.inf
+    ]
+    lost, kept = (regimes.spans(lost=which) for which in (True, False))
+    windows = [span for span in kept if len(lost) and span[0] >= lost[0, 1]]
+    if not windows:
+        words.append("Contact, once lost, is not found again at a higher speed.")
         return " ".join(words)
-    v, mass = np.asarray(window[0]), np.asarray(window[1])
-    most = mass.max()
+    low, high = windows[-1]
+    inside = (low < v) & (v < high)
+    most = mass[inside].max() if inside.any() else 0.0
+    where = f"from {number(low)} to {number(high)}{SPACE}m/s"
     if np.isinf(most):
-        words.append("In the window of fast speeds a wheel may weigh what it likes.")
-        return " ".join(words)
-    words.append(
-        f"**{_bold_claim(most)}** From {number(v[0])} to {number(v[-1])}{SPACE}m/s a wheel without "
-        f"mass keeps contact; one that weighs more than {grams(most)} a pair does so nowhere "
-        f"there."
-    )
+        words.append(f"In a part of the window {where} a wheel may weigh what it likes.")
+    else:
+        words.append(
+            f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: "
+            f"in the window {where}, where wheels without mass keep contact, a heavier one leaves "
+            "the ground at every speed."
+        )
     return " ".join(words)
-
-
-def _bold_claim(most):
-    return f"Faster is safer for wheels lighter than {grams(most)} a pair, for no others."
 
 
 def energy_caption(v):
