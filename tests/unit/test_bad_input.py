@@ -36,10 +36,12 @@ from suspension import (
 )
 from suspension.animation import animate_robot
 from suspension.branches import branches
+from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
 from suspension.road import RoughRoad
 from suspension.sweep import peaks, sweep
+from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
 
 matplotlib.use("Agg")
@@ -56,6 +58,8 @@ FIT = springs.fit_spring(DATA)
 T = np.linspace(0, 1, 11)
 W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
+TYRE = Tyre(0.01, 1e5, 3.0)
+FLIGHT = suspension.fly(ROBOT, BUMP, v=5, tfinal=0.1)
 LAW = measured.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
 TWO_LAWS = measured.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
@@ -256,6 +260,47 @@ TABLE = [
             "samples": [*NOT_WHOLE, 1, 10**12],
         },
         NO_DRIVE,
+    ),
+    Row(
+        "Tyre",
+        Tyre,
+        {"mass": 0.01, "stiffness": 1e5, "damping": 3.0},
+        {"mass": NOT_POSITIVE, "stiffness": NOT_POSITIVE, "damping": NOT_NONNEGATIVE},
+    ),
+    Row(
+        "roll",
+        roll,
+        DRIVE | {"tyre": TYRE, "tfinal": 0.01, "samples": 3, "resolution": 0.01, "rtol": 1e-5},
+        {
+            "road": NO_ROADS,
+            "v": [*NOT_POSITIVE, 1e300],
+            "tfinal": [*NOT_POSITIVE, 1e12, 1e300],
+            "samples": [*NOT_WHOLE, 1, 10**12],
+            "resolution": [*but(NOT_POSITIVE, None), TOO_MANY_STEPS],
+            "rtol": [*NOT_POSITIVE, 1],
+        },
+        NO_DRIVE | {"tyre": [*NOT_AN_OBJECT, Tyre, ROBOT, len]},
+    ),
+    Row(
+        "heaviest_wheel",
+        heaviest_wheel,
+        CROSS | {"distance": 1.25},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        NO_CROSSING,
+    ),
+    Row(
+        "energy",
+        energy,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "landings",
+        landings,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
     ),
     Row(
         "flat_ground",

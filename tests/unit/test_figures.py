@@ -11,6 +11,7 @@ from matplotlib import pyplot as plt
 
 import suspension.figures
 from suspension.contact import Regimes
+from suspension.energy import Energy
 from suspension.figures import (
     film,
     plot_all_forces,
@@ -18,15 +19,18 @@ from suspension.figures import (
     plot_comb,
     plot_confidence_region,
     plot_demand_map,
+    plot_energy,
     plot_errors,
     plot_experiments,
     plot_fit,
     plot_flight,
     plot_forces,
+    plot_free_wheels,
     plot_front,
     plot_gains,
     plot_growth,
     plot_heave,
+    plot_heaviest_wheel,
     plot_margin,
     plot_margin_map,
     plot_margins,
@@ -135,6 +139,13 @@ ON_ONE = {
     "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
     "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
+    "plot_free_wheels": lambda ax: plot_free_wheels(
+        {"relaxes": (T, 0.01 * T)}, {"1 g": (T, 0.02 * T), "0.1 g": (T, 0.015 * T)}, ax
+    ),
+    "plot_heaviest_wheel": lambda ax: plot_heaviest_wheel(
+        V, np.where(V < 0.5, np.inf, np.where(V < 8, 0, 0.1 / V)), [0.01], [1.2], ax
+    ),
+    "plot_energy": lambda ax: plot_energy(T, Energy(4 * T, T, T, 2 * T), [(0.2, 0.4)], ax),
     "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
 ON_TWO = {
@@ -159,7 +170,7 @@ PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
 PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)

@@ -11,7 +11,7 @@ PACKAGE = ROOT / "suspension"
 CORE = (
     "_checks robot road problem schemes forces simulation _readings springs course exact "
     "least_force critical branches contact similarity flight sweep frequency choice travel "
-    "accuracy uncertainty measured"
+    "accuracy uncertainty measured tyre energy"
 ).split()
 ROOMS = ("figures", "report", "explorer")  # may stand on all of the core
 FACADES = {"animation": "figures"}  # a name of the contract, kept in a room
