@@ -12,8 +12,8 @@ from suspension.report.words import (
     fixed,
     join,
     number,
-    percent,
     quantity,
+    small_angle,
     speed_list,
 )
 
@@ -160,23 +160,20 @@ def tilt(flights, pressing):
     """
     angles = {v: np.abs(flight.W[2]).max() for v, flight in flights.items()}
     v = max(angles, key=angles.get)
-    differ = percent(angles[v] ** 2 / 6, 2)
+    differ = small_angle(angles[v])
     degrees = f"{fixed(np.degrees(angles[v]), 1)} degrees at {speed_list([v])}"
     if not flights[v].events:
         return (
             f"The largest pitch of these runs is {degrees}, with both wheels on the ground; "
-            rf"$\sin\theta$ and $\theta$ differ by {differ} there."
+            f"{differ} there."
         )
     if angles[v] < 1.05 * pressing[v]:
-        return (
-            f"The pitch reaches {degrees}, no more than while both wheels press; "
-            rf"$\sin\theta$ and $\theta$ differ by {differ} there."
-        )
+        return f"The pitch reaches {degrees}, no more than while both wheels press; {differ} there."
     return (
         f"In the air the body tilts further than before: the pitch reaches {degrees}, where it had "
         f"been {fixed(np.degrees(pressing[v]), 1)} degrees at most until the first lift-off. "
-        rf"There $\sin\theta$ and $\theta$ differ by {differ}, and the small-angle equations begin "
-        "to be an approximation that one can see."
+        f"There {differ}, and the small-angle equations begin to be an approximation that one can "
+        "see."
     )
 
 

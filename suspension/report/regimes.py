@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from suspension.contact import is_lost
 from suspension.forces import WHEEL
 from suspension.problem import DISTANCE
 from suspension.report.data import existence, speed_digits
@@ -25,6 +26,7 @@ from suspension.report.words import (
     percent,
     quantity,
     ranges,
+    small_angle,
     speed_list,
 )
 
@@ -45,6 +47,7 @@ __all__ = [
     "margin_caption",
     "other_readings",
     "sensitivity_caption",
+    "stronger_dampers",
     "strongest",
     "travel_caption",
     "verdict",
@@ -245,6 +248,45 @@ def balance_table(critical, balances):
     return "\n\n".join([table(rows), " ".join(words)])
 
 
+def stronger_dampers(before, after, still):
+    """What dampers twice as strong do, beside what the body that does not move says of them.
+
+    Parameters
+    ----------
+    before, after : Regimes
+        With the robot's own dampers, and with twice as strong ones.
+    still : pair of float
+        Speeds, m/s, at which a wheel is pulled off under a body that does not move, before, after.
+    """
+    own, left = _window(before), _window(after)
+    if own is None:
+        return f"With dampers twice as strong contact is {ranges(after)}."
+    low, high = map(number, own)
+    safer = f"in which faster is safer, from {low} to {high}{SPACE}m/s,"
+    if left is None:
+        return (
+            "The robot's own body does move meanwhile, and what is left of the range "
+            f"{safer} is nothing: with dampers twice as strong contact is {ranges(after)}."
+        )
+    becomes = "shrinks" if left[1] / left[0] < own[1] / own[0] else "changes"
+    return (
+        "The robot's own body does move meanwhile. Its last critical speed goes from "
+        f"{high} to {number(left[1])}{SPACE}m/s, by a factor of {number(own[1] / left[1], 2)} "
+        f"where the body held still has {number(still[0] / still[1], 2)}, and the range {safer} "
+        f"{becomes} to that from {number(left[0])} to {number(left[1])}{SPACE}m/s."
+    )
+
+
+def _window(regimes):
+    """The last range in which contact is kept, if it is lost before and after; else None."""
+    spans = [
+        span
+        for span in regimes.spans(lost=False)
+        if span[0] > regimes.edges[0] and span[1] < regimes.edges[-1]
+    ]
+    return spans[-1] if spans else None
+
+
 def afterwards(changed, speeds, extra):
     """What happens after the way of the problem set.
 
@@ -349,14 +391,17 @@ def other_readings(by_stiffness):
 
 
 def confidence_table(asked):
-    """For each `Asked` speed: margin, use of the spring, where the verdict flips, confidence."""
+    """For each `Asked` speed: margin, use of the spring, where the verdict flips, confidence.
+
+    After a loss the ground of the linear model pulls: such a margin is a sign and no quantity.
+    """
     rows = []
     for speed in asked:
         mark = "*" if speed.stretch > 1 else ""
         rows.append(
             {
                 "v (m/s)": f"{speed.v:g}",
-                "margin (N)": fixed(speed.margin, 2) + mark,
+                "margin (N)": ("lost" if is_lost(speed.margin) else fixed(speed.margin, 2)) + mark,
                 r"spring, of $\delta_{\max}$": fixed(speed.stretch, 2),
                 "verdict flips at k (N/m)": join([number(k, 4) for k in speed.flips]),
                 **{f"lost, by the {name}": confidence(p) + mark for name, p in speed.lost.items()},
@@ -501,7 +546,7 @@ def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
     words.append(rf"In units of $\delta_{{\max}}$ the {largest} {each}.")
     words.append(
         f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
-        rf"where $\sin\theta$ and $\theta$ differ by {percent(tilt**2 / 6, 1)}; "
+        f"where {small_angle(tilt)}; "
         "[in the air](../notebooks/06-flight.ipynb) it is another matter."
     )
     return " ".join(words)

@@ -43,7 +43,7 @@ def plain(text):
 def asked(*stretches):
     """Asked speeds at which a spring is compressed so far, in units of delta_max."""
     return [
-        part.Asked(0.25 * 2**i, 5.59 - i, stretch, [572.83][:i], {"slope at zero": i / 10})
+        part.Asked(0.25 * 2**i, 5.59 - 10 * i, stretch, [572.83][:i], {"slope at zero": i / 10})
         for i, stretch in enumerate(stretches)
     ]
 
@@ -175,6 +175,27 @@ def test_the_damper_is_blamed_only_where_the_spring_still_pushes():
 
 
 @pytest.mark.parametrize(
+    ("before", "after", "words"),
+    [
+        (
+            WINDOW,
+            Regimes([LOW, 0.446, 7.55, 8.48, HIGH], [False, True, False, True]),
+            "goes from 20.3 to 8.48 m/s, by a factor of 2.4 where the body held still has 2.0, and "
+            "the range in which faster is safer, from 7.85 to 20.3 m/s, shrinks to that from 7.55 "
+            "to 8.48 m/s.",
+        ),
+        (Regimes([1, 2, 3, 4], [1, 0, 1]), Regimes([1, 1.2, 3, 4], [1, 0, 1]), "changes to that"),
+        (WINDOW, RISES, "is nothing: with dampers twice as strong contact is kept up to 0.500 m/s"),
+        (RISES, KEPT, "With dampers twice as strong contact is kept at every speed"),
+        (FALLS, WINDOW, "With dampers twice as strong contact is kept up to 0.436 m/s"),
+    ],
+)
+def test_what_dampers_twice_as_strong_do_is_told_of_the_robot_itself(before, after, words):
+    text = part.stronger_dampers(before, after, (21.1, 10.55))
+    assert words in plain(text) and not faults(text)
+
+
+@pytest.mark.parametrize(
     ("beyond", "words"),
     [
         ([], ""),
@@ -276,6 +297,7 @@ def test_what_rests_on_a_spring_beyond_its_range_is_marked():
     slow, fast = part.confidence_table(speeds).splitlines()[2:]
     assert "*" not in plain(slow) and fast.count("*") == 2
     assert "none" in plain(slow) and "572.8" in plain(fast)
+    assert "| 5.59 |" in plain(slow) and "| lost* |" in plain(fast)  # after a loss only a sign
     note = part.confidence_note(speeds, 792.9)
     assert "at 0.5 m/s: **if the spring stays linear**" in plain(note)
     assert "asterisk" not in plain(part.confidence_note(asked(0.6), 792.9))
