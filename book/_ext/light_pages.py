@@ -130,6 +130,7 @@ def rewritten(path, text, out, common, shared):
     """A page with one style sheet and one script in place of those that all pages have."""
     is_search = path.name == "search.html"
     up = "../" * (len(path.relative_to(out).parts) - 1)
+    scripts = [f'<script defer src="{up}_static/book.js{version(out, "book.js")}"></script>']
 
     def style(found):
         return "" if local(path, found[1] or found[2], out) in shared else found[0]
@@ -141,16 +142,16 @@ def rewritten(path, text, out, common, shared):
         source = SOURCE.search(attributes)
         if source:
             name = Path(source[1]).name
-            if local(path, source[1], out) in common or (name in SEARCH and not is_search):
-                return ""
-            defer = "" if "defer" in attributes else " defer"
-            return found[0].replace("<script", f"<script{defer}")
-        body = PAGE_NAME.sub("", body).strip()
-        if not body or body in common or "data-cfasync" in attributes:
+            if local(path, source[1], out) not in common and (is_search or name not in SEARCH):
+                defer = "" if "defer" in attributes else " defer"
+                scripts.append(found[0].strip().replace("<script", f"<script{defer}"))
             return ""
-        name = f"inline-{hashlib.sha256(body.encode()).hexdigest()[:12]}.js"
-        (out / "_static" / name).write_text(body + "\n", encoding="utf-8")
-        return f'\n<script defer src="{up}_static/{name}"></script>'
+        body = PAGE_NAME.sub("", body).strip()
+        if body and body not in common and "data-cfasync" not in attributes:
+            name = f"inline-{hashlib.sha256(body.encode()).hexdigest()[:12]}.js"
+            (out / "_static" / name).write_text(body + "\n", encoding="utf-8")
+            scripts.append(f'<script defer src="{up}_static/{name}"></script>')
+        return ""
 
     text = PRELOAD.sub("", STYLE.sub(style, SCRIPT.sub(script, text)))
     text = HANDLER.sub(r' data-click="\1"', text)
@@ -161,8 +162,9 @@ def rewritten(path, text, out, common, shared):
     head += [
         f'\n<noscript><link rel="stylesheet" href="{up}_static/fonts.css" /></noscript>',
         f'\n<link rel="stylesheet" href="{up}_static/book.css{version(out, "book.css")}" />',
-        f'\n<script defer src="{up}_static/book.js{version(out, "book.js")}"></script>',
     ]
+    # At the end, where they take nothing of the line while the style is on its way.
+    text = text.replace("</body>", "\n".join([*scripts, "</body>"]))
     # After what sets the character set and the title, before page-specific files.
     return re.sub(r"(?=\s*<noscript>|\s*</head>)", lambda _: "".join(head), text, count=1)
 

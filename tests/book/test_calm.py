@@ -165,6 +165,29 @@ def test_only_pages_with_formulas_wait_for_their_fonts(book, page):
     assert weight < (80_000 if formulas else 10_000)
 
 
+def test_the_first_paint_waits_for_nothing_but_page_and_style(browser, book, site):
+    """On a line of 400 kbit/s that compresses nothing; scripts at work later come later."""
+    page, speed = "book/index.html", 50_000  # bytes a second
+    text = (book / page).read_text(encoding="utf-8")
+    needed = re.findall(r'(?:<script src|rel="stylesheet"[^>]* href)="\.\./([^"?]*)', text)
+    assert len(needed) == 4  # theme and icons, both style sheets, and one for who has no scripts
+    files = [book / page, *(book / name for name in needed if "fonts.css" not in name)]
+    allowed = 1000 * (1.15 * sum(file.stat().st_size for file in files) / speed + 1)
+    for _ in range(3):  # other tests run on the same machine
+        tab = browser.new_page(viewport={"width": 1280, "height": 800})
+        line = {"offline": False, "latency": 50, "downloadThroughput": speed}
+        session = tab.context.new_cdp_session(tab)
+        session.send("Network.enable")
+        session.send("Network.emulateNetworkConditions", line | {"uploadThroughput": speed})
+        tab.goto(site + page, wait_until="load")
+        paint = tab.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        tab.close()
+        print(f"{paint:.0f} of {allowed:.0f} ms")
+        if paint < allowed:
+            return
+    pytest.fail(f"the first paint comes after {paint:.0f} ms, not {allowed:.0f}")
+
+
 def test_every_formula_finds_its_fonts(browser, strict_site):
     for page in ("book/model", "notebooks/03-runge-kutta", "notebooks/04-accuracy"):
         with opened(browser, f"{strict_site}{page}.html", 1280) as (tab, _):

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import scipy.io
 from bs4 import BeautifulSoup
-from helpers import ROOT
+from helpers import ROOT, windows_locale
 
 from suspension import RK4, GaussianBump, Robot, margin
 from suspension.springs import fit_spring, load_spring_data
@@ -72,7 +72,7 @@ def curved_spring(path):
 
 @pytest.fixture(scope="module", params=[soft_spring, curved_spring], ids=lambda make: make.__name__)
 def book(request, tmp_path_factory):
-    """A book that was built with such data."""
+    """A book that was built with such data, on a system that does not speak UTF-8 by itself."""
     tree = tmp_path_factory.mktemp(request.param.__name__)
     for part in PARTS:
         if (ROOT / part).is_dir():
@@ -80,13 +80,15 @@ def book(request, tmp_path_factory):
         else:
             shutil.copy(ROOT / part, tree)
     data = request.param(tree / "data")
+    system = windows_locale(tmp_path_factory.mktemp("locale"))
     build = [Path(sys.executable).with_name("jupyter-book"), "build", ".", "--all"]
     run = subprocess.run(
         [*build, "-W", "-n", "--keep-going"],
         cwd=tree,
-        env=os.environ | {"PYTHONPATH": str(tree)},
+        env=os.environ | system | {"PYTHONPATH": str(tree)},
         capture_output=True,
-        text=True,
+        encoding="utf-8",
+        errors="replace",
     )
     assert run.returncode == 0, (run.stdout + run.stderr)[-3000:]
     built = tree / "_build" / "html"

@@ -33,10 +33,11 @@ for path in [*root.glob("book/_ext/*.py"), root / "book/paper.py", root / "noteb
 from suspension import springs
 springs.load_spring_data()
 import nbformat, normalise
-notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("print('ω ≥ −1')")])
-nbformat.write(notebook, tmp / "a.ipynb")
+greek = "\u03c9 \u2265 \u22121"
+cell = nbformat.v4.new_code_cell(f"print({greek!r})")
+nbformat.write(nbformat.v4.new_notebook(cells=[cell]), tmp / "a.ipynb")
 normalise.main([tmp / "a.ipynb"])
-assert "ω ≥ −1" in (tmp / "a.ipynb").read_text(encoding="utf-8").split("outputs")[1]
+assert greek in (tmp / "a.ipynb").read_text(encoding="utf-8").split("outputs")[1]
 """
 
 
