@@ -180,8 +180,9 @@ def course(v, ratios):
     worst = int(np.argmax(ratios))
     if ratios[worst] < 1.01:
         return (
-            "For this robot the end of the way at 1.25 m does not matter: its dampers see to it that "
-            "the worst comes on the way, and the curve is the same to a per cent at every speed."
+            "For this robot the end of the way at 1.25 m does not matter: its dampers see to it "
+            "that the worst comes on the way, and the curve is the same to a per cent at every "
+            "speed."
         )
     return (
         f"For this robot the end of the way at 1.25 m matters most at {number(v[worst])}"
@@ -260,8 +261,9 @@ def chart_figure(zetas, own, found, speeds):
     return Caption(
         f"The chart. Each curve is the highest bump that a robot crosses with contact; "
         f"{count(len(zetas), 'damping')} with $\\zeta$ up to {number(max(zetas), 2)}, ours "
-        f"({number(own, 2)}) in black. The bump of the problem is the line across, thick where contact is kept, with "
-        f"the {count(len(speeds), 'speed')} asked for and {count(crossed, 'critical speed')}.",
+        f"({number(own, 2)}) in black. The bump of the problem is the line across, "
+        f"thick where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
+        f"{count(crossed, 'critical speed')}.",
         "Highest bump against speed on logarithmic axes, a curve for each damping. All come down "
         "together from the left; to the right they rise, and the more damping there is, the "
         f"sooner they turn down. Over the problem's bump contact is "
