@@ -28,7 +28,7 @@ OPTIONS = (
 
 
 @contextmanager
-def serve(folder):
+def serve(folder, *options):
     """Start JupyterLab in a folder, without the user's settings; its address, ending in a slash."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -37,7 +37,7 @@ def serve(folder):
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     command = [sys.executable, "-m", "jupyterlab", *OPTIONS, f"--port={port}"]
     server = subprocess.Popen(
-        [*command, f"--ServerApp.root_dir={folder}"],
+        [*command, f"--ServerApp.root_dir={folder}", *options],
         env=os.environ | own | {"PYTHONPATH": path},
         cwd=folder,
         stdout=subprocess.DEVNULL,

@@ -21,6 +21,7 @@ from suspension.explorer import page_script, page_style
 
 PREFIX = "explore:"
 BOX = "suspension-explorer-box"
+FOR_NOTEBOOKS = re.compile(r'<p class="se-run">.*?</p><style>.*?</style>')
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 FILES = {"explorer.js": page_script, "explorer.css": page_style}
 
@@ -71,6 +72,19 @@ class ExplorerDirective(SphinxDirective):
         return [nodes.raw("", html, format="html"), *content.children]
 
 
+class PagesOnly(SphinxPostTransform):
+    """Leave out what an explorer's HTML says to readers of the notebook, before it is run."""
+
+    default_priority = 500
+    formats = ("html",)
+
+    def run(self, **kwargs):
+        """Visit the explorers of one page."""
+        for raw in self.document.findall(nodes.raw):
+            if BOX in raw.astext():
+                raw.children = [nodes.Text(FOR_NOTEBOOKS.sub("", raw.astext()))]
+
+
 class ExplorerLinks(SphinxPostTransform):
     """Links that set a picture: they lead to no anchor, and MyST must not look for one."""
 
@@ -102,6 +116,7 @@ def setup(app):
     """Connect to Sphinx."""
     app.add_directive("explorer", ExplorerDirective)
     app.add_post_transform(ExplorerLinks)
+    app.add_post_transform(PagesOnly)
     app.connect("builder-inited", write_files)
     app.connect("html-page-context", add_files, priority=400)  # before MyST-NB adds scripts
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -21,6 +21,11 @@ PATH = re.compile(r'(?<= d=")[^"]*')
 NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
+# In a notebook without its kernel there is no widget, and this picture says what to do about it.
+NO_WIDGET = (
+    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + "
+    ".jp-OutputArea-child:has(> .jupyter-widgets:not(:has(*))) { display: none; }</style>"
+)
 RUN = "A still picture: run the notebook (Run > Run All Cells) to drive it."
 
 
@@ -39,7 +44,7 @@ def still(explorer, drawn):
     text = _describe(explorer, explorer.trajectory())
     return (
         f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
-        f'<p class="se-run"><strong>{RUN}</strong></p>'
+        f'<p class="se-run"><strong>{RUN}</strong></p>{NO_WIDGET}'
     )
 
 

@@ -3,8 +3,10 @@
 import { readHash } from "./state.js";
 
 export const PREFIX = "#explore:";
-const LIVE = "suspensionExplorers"; // every view loads these modules anew; the window keeps what they share
-const CELLS = ".jp-Notebook, .notebook-container, main, body"; // what the explorers of a text stand in
+// Every view loads these modules anew; the window keeps what they share.
+const LIVE = "suspensionExplorers";
+const PENDING = "suspensionPending";
+const TEXT = ".jp-Notebook, body"; // what phrases and explorers belong to
 
 /** The address of the link that an event is a plain click on, or undefined. */
 export function linkOf(event) {
@@ -15,33 +17,41 @@ export function linkOf(event) {
 /** Let the phrases of a notebook set this view, the first there unless they say which. */
 export function followPhrases(view) {
   window[LIVE] ??= listen();
-  const live = { ...view, text: null };
-  window[LIVE].add(live);
-  return () => window[LIVE].delete(live);
+  const live = { ...view, text: null },
+    { views } = window[LIVE];
+  views.add(live);
+  // A phrase of another notebook has waited for this one to be run.
+  const begin = () => {
+    const { node, anchor } = window[PENDING] ?? {};
+    if (node?.contains(view.box) && window[LIVE].follow(node, anchor)) delete window[PENDING];
+  };
+  view.box.addEventListener("painted", begin, { once: true });
+  return () => views.delete(live);
 }
 
-/** The views that are alive, once there is somebody who listens to clicks for all of them. */
+/** The views that are alive, and what lets a phrase set one of those in an element. */
 function listen() {
   const views = new Set();
-  const follow = (event) => {
-    const href = linkOf(event),
-      at = href?.indexOf(PREFIX) ?? -1;
-    if (at < 0) return;
+  const follow = (text, anchor) => {
     // What JupyterLab has scrolled out of sight may be out of the document: it keeps its place.
-    for (const view of views) if (view.box.isConnected) view.text = view.box.closest(CELLS);
-    const text = event.target.closest(CELLS),
-      here = inOrder([...views].filter((view) => view.text === text));
-    const [index, settings] = readHash(href.slice(at + PREFIX.length)),
-      view = here[index];
-    if (!view) return; // of another notebook, or not run yet
-    event.preventDefault();
-    event.stopImmediatePropagation();
+    for (const view of views) if (view.box.isConnected) view.text = view.box.closest(TEXT);
+    const inText = (view) => view.text && (text === view.text || text.contains(view.text)),
+      [index, settings] = readHash(anchor.slice(PREFIX.length - 1)),
+      view = inOrder([...views].filter(inText))[index];
+    if (!view) return false; // of another notebook, or not run yet
     view.apply({ ...view.initial, time: null, ...settings });
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     view.box.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
+    return true;
   };
-  document.addEventListener("click", follow, { capture: true });
-  return views;
+  const click = (event) => {
+    const hash = linkOf(event);
+    if (!hash?.startsWith(PREFIX) || !follow(event.target.closest(TEXT), hash.slice(1))) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  };
+  document.addEventListener("click", click, { capture: true });
+  return { views, follow };
 }
 
 const inOrder = (views) =>
