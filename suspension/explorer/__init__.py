@@ -20,7 +20,7 @@ from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range
 from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
-from suspension.explorer.still import critical, draw, picture, still
+from suspension.explorer.still import critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.flight import fly
 from suspension.road import FlatRoad
@@ -158,7 +158,7 @@ class Explorer(anywidget.AnyWidget):
         It computes them at any settings to five digits; these are the ones that a text beside it
         names, and they take a moment, so they wait until the explorer is shown.
         """
-        if self.family.has_bump:
+        if knows_all_speeds(self):
             at = {name: getattr(self, name) for name in ("k", "c", "height", "sigma")}
             if self.facts.get("exact", {}).get("at") != at:
                 exact = {"at": at, "critical": critical(self).tolist()}

@@ -17,7 +17,7 @@ __all__ = ["Family", "Range", "affine"]
 # What fits the problem's robot and bump, in units of their own; another family gets as much.
 SPEEDS = (0.1, 25.0)  # m/s, while width times frequency is near UNIT
 UNIT = 0.95  # m/s
-WAY = 29.0  # widths of the bump, beyond the place where the rear wheel meets its middle
+WAY = 28.5  # widths of the bump, beyond the place where the rear wheel meets its middle
 WAYS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 WIDTHS = 0.135  # of a feature in wheelbases, of a road that does not say how wide its own are
 SHORTEST = 0.0156  # of the shortest time constant, the longest step of a flight

@@ -14,19 +14,20 @@ from suspension.forces import WHEEL
 from suspension.least_force import minima
 from suspension.report.words import join, quantity
 
-__all__ = ["critical", "draw", "picture", "still"]
+__all__ = ["critical", "draw", "knows_all_speeds", "picture", "still"]
 
 DEFINITIONS = re.compile(r"<defs>.*?</defs>", re.DOTALL)  # the letters' shapes
 PATH = re.compile(r'(?<= d=")[^"]*')
 NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
+FAR = 4  # times the usual way
 # In a notebook without its kernel there is no widget, and this picture says what to do about it.
 NO_WIDGET = (
     "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + "
     ".jp-OutputArea-child:has(> .jupyter-widgets:not(:has(*))) { display: none; }</style>"
 )
-RUN = "A still picture: run the notebook (Run > Run All Cells) to drive it."
+RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
 
 
 def draw(explorer):
@@ -60,6 +61,11 @@ def picture(drawn):
     )
     svg = svg.replace(f'height="{height:g}pt"', f'height="{height + 24:g}pt"', 1)
     return svg.replace("</svg>", f"{words}</svg>")
+
+
+def knows_all_speeds(explorer):
+    """Whether the exact least forces are at hand: of one bump, on a way that is not endless."""
+    return explorer.family.has_bump and explorer.distance <= FAR * explorer.family.way
 
 
 def critical(explorer):
@@ -99,7 +105,7 @@ def _shorten(text):
 
 def _panels(explorer, run):
     """The panels at the moment shown."""
-    has_speeds = explorer.family.has_bump
+    has_speeds = knows_all_speeds(explorer)
     top = ["robot", "speeds"] if has_speeds else ["robot", "robot"]
     with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(
@@ -116,7 +122,7 @@ def _panels(explorer, run):
 
 def _compact(explorer, run):
     """The robot, and the curve over all speeds if it is known."""
-    names = [["robot"], ["speeds"]] if explorer.family.has_bump else [["robot"]]
+    names = [["robot"], ["speeds"]] if knows_all_speeds(explorer) else [["robot"]]
     with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(names, figsize=(7.2, 5))
         _draw_robot(explorer, run, axes["robot"])
@@ -151,7 +157,7 @@ def _draw_speeds(explorer, ax):
 def _describe(explorer, run):
     """What the picture says, in words."""
     panels = ["the robot on the road"]
-    if explorer.family.has_bump:
+    if knows_all_speeds(explorer):
         panels.append("the least force of each wheel at every speed")
     if not explorer.compact:
         panels += ["both normal forces", f"the stability region of {run.scheme.name}"]
