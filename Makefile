@@ -46,7 +46,7 @@ mutants: $(VENV)
 # figures, which are SVG, in notebooks that it trusts.
 lab: $(VENV)
 	@$(BIN)/jupyter trust notebooks/*.ipynb >/dev/null
-	$(BIN)/jupyter lab --KernelManager.transport_encryption=auto $(if $(filter 0,$(shell id -u)),--allow-root)
+	$(BIN)/jupyter lab --config=book/_lab/jupyter_server_config.py --KernelManager.transport_encryption=auto $(if $(filter 0,$(shell id -u)),--allow-root)
 
 # The answer sheet and the whole book, as _build/pdf/*.pdf; needs Chromium.
 pdf: printer book

@@ -108,7 +108,7 @@ def random_settings(explorer, rng, count):
 
     own = explorer.family.own
     for _ in range(count):
-        setting = {name: float(place(reach)) for name, reach in explorer.family.ranges.items()}
+        setting = {name: float(place(reach)) for name, reach in explorer.ranges.items()}
         if not explorer.family.has_bump:
             setting |= {name: own[name] for name in ("height", "sigma")}
         yield setting | {"scheme_index": int(rng.integers(len(explorer.schemes)))}
