@@ -14,6 +14,8 @@ What goes beyond:
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
+- `tyre`: wheels that weigh something, and how light they must be
+- `energy`: what the road puts in, and where it goes
 - `sweep`: very many runs at once
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it

@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
 from suspension import _checks
@@ -170,7 +171,9 @@ def way(robot, bump, v, swings=8):
     return passed + swings * 2 * np.pi / slowest * _positive("v", v)[()]
 
 
-def highest_bump(robot, bump, v, *, distance=None):
+def highest_bump(
+    robot: Robot, bump: GaussianBump, v: ArrayLike, *, distance: float | None = None
+) -> np.ndarray:
     """Height of the highest bump that is crossed with contact: a higher one lifts a wheel.
 
     Forces are linear in the height, ``N_i = load_i + height f_i(t)``, so the answer is the least
