@@ -12,6 +12,7 @@ What goes beyond:
 - `exact`: the crossing of a bump in closed form
 - `least_force`, `critical`: its least forces, and the speeds at which they vanish
 - `contact`: all that answers "does a wheel leave the ground?", in one place
+- `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
 - `sweep`: very many runs at once
 - `frequency`: what the robot makes of waves in the road, and of rough roads
@@ -20,13 +21,15 @@ What goes beyond:
 - `measured`: the spring with its preload, its curvature and an end stop
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
-and nothing above imports them.
+and nothing above imports them; `explore`, a picture with sliders, is loaded when it is first used.
 
 >>> import suspension
 >>> robot = suspension.Robot(k1=800, k2=800)
 >>> suspension.simulate(robot, suspension.GaussianBump(), v=1.2, dt=0.001, tfinal=1).loss
 Loss(wheel=2, t=0.177)
 """
+
+from typing import TYPE_CHECKING
 
 from suspension.contact import regimes
 from suspension.critical import critical_speeds
@@ -36,6 +39,7 @@ from suspension.least_force import margin
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
+from suspension.similarity import highest_bump
 from suspension.simulation import simulate
 
 __version__ = "2.0.0"
@@ -50,9 +54,27 @@ __all__ = [
     "Robot",
     "Scheme",
     "critical_speeds",
+    "explore",
     "fly",
+    "highest_bump",
     "margin",
     "over_bump",
     "regimes",
     "simulate",
 ]
+
+if TYPE_CHECKING:
+    from suspension.explorer import explore
+else:
+
+    def __getattr__(name):
+        # Widgets and figures take longer to load than all the rest, and most runs need none.
+        if name == "explore":
+            from suspension.explorer import explore
+
+            return explore
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -19,6 +19,7 @@ __all__ = [
     "distance_over",
     "duration",
     "exact_forces",
+    "forces_and_minima",
     "margin",
     "minima",
     "roundoff",
@@ -42,7 +43,14 @@ class Minimum(NamedTuple):
     X: float
 
 
-def margin(robot, bump, v, tfinal=None, *, distance=None):
+def margin(
+    robot: Robot,
+    bump: GaussianBump,
+    v: float,
+    tfinal: float | None = None,
+    *,
+    distance: float | None = None,
+) -> float:
     """The least normal force of both wheels on the way over the bump, exact.
 
     The robot starts at X = 0, in the equilibrium of level ground, and keeps contact if and only if
@@ -190,16 +198,7 @@ def turning_points(crossing, tfinal=None, *, distance=None):
         As `margin` does.
     """
     tfinal = duration(crossing.robot, crossing.bump, crossing.v, tfinal, distance)
-    samples = _samples(crossing, tfinal)
-    with np.errstate(all="ignore"):
-        parts = [
-            _with_minima(crossing, samples[i : i + CHUNK + 1])
-            for i in range(0, len(samples) - 1, CHUNK)
-        ]
-        t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
-        t, once = np.unique(t, return_index=True)  # the parts share their ends
-        N = N[:, once]
-        error = roundoff(crossing, tfinal)
+    t, N, error = forces_and_minima(crossing, tfinal)
     scale = max(np.abs(crossing.robot.C @ crossing.robot.equilibrium).max(), -N.min())
     if not (np.isfinite(N).all() and error <= DIGITS_LOST * scale):
         raise ValueError(
@@ -208,6 +207,22 @@ def turning_points(crossing, tfinal=None, *, distance=None):
             f"whose forces may be off by {error:.2g} N"
         )
     return t, N
+
+
+def forces_and_minima(crossing, tfinal):
+    """What `turning_points` looks for, with an estimate of its rounding error (`roundoff`), N.
+
+    Nothing is refused here: forces may overflow, or drown in the error.
+    """
+    samples = _samples(crossing, tfinal)
+    with np.errstate(all="ignore"):
+        parts = [
+            _with_minima(crossing, samples[i : i + CHUNK + 1])
+            for i in range(0, len(samples) - 1, CHUNK)
+        ]
+        t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
+        t, once = np.unique(t, return_index=True)  # the parts share their ends
+        return t, N[:, once], roundoff(crossing, tfinal)
 
 
 def duration(robot, bump, v, tfinal=None, distance=None):

@@ -11,20 +11,26 @@ from matplotlib import pyplot as plt
 
 import suspension.figures
 from suspension.contact import Regimes
+from suspension.energy import Energy
 from suspension.figures import (
     film,
     plot_all_forces,
+    plot_chart,
+    plot_comb,
     plot_confidence_region,
     plot_demand_map,
+    plot_energy,
     plot_errors,
     plot_experiments,
     plot_fit,
     plot_flight,
     plot_forces,
+    plot_free_wheels,
     plot_front,
     plot_gains,
     plot_growth,
     plot_heave,
+    plot_heaviest_wheel,
     plot_margin,
     plot_margin_map,
     plot_margins,
@@ -46,6 +52,8 @@ from suspension.figures import (
     plot_stop_regions,
     plot_stop_stiffness,
     plot_travel,
+    plot_vehicles,
+    plot_window,
 )
 from suspension.figures.layout import narrow
 from suspension.flight import fly
@@ -85,6 +93,13 @@ LAWS = {"line": 13 * T, "stop": 13 * T + 100 * np.maximum(T - 0.5, 0)}
 MARGINS = {"line": FORCES[0], "stop": FORCES[1] - 9}
 RUNS = {"line": (T, 0.01 * T, 9 - T), "stop": (T, 0.02 * T, 9 - 10 * T)}
 
+NU, ZETA = np.geomspace(0.05, 100, 60), np.geomspace(0.01, 0.2, 20)
+CHART = {0.0: 0.4 * NU, 0.03: 1 / NU**2 + NU * np.exp(-NU / 9), 0.4: 1 / NU**2 + 1e-3 / NU}
+PATHS = {
+    "car,\nhump": (NU[20:40], 0.6, NU[20:40] > 2),
+    "coach,\njoint": (NU[40:], 0.01, NU[40:] > 999),
+}
+
 ON_ONE = {
     "plot_fit": lambda ax: plot_fit(FIT, DATA, ax=ax),
     "plot_confidence_region": lambda ax: plot_confidence_region(FIT, ax=ax),
@@ -94,6 +109,14 @@ ON_ONE = {
     "plot_errors": lambda ax: plot_errors(DTS, ERRORS, ax),
     "plot_heave": lambda ax: plot_heave(V, HEAVE, ax),
     "plot_margin": lambda ax: plot_margin(V, FORCES, REGIMES, asked=[1.2], ax=ax),
+    "plot_chart": lambda ax: plot_chart(
+        NU, CHART, {"skim": 9 / NU}, (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]), 0.03, ax=ax
+    ),
+    "plot_comb": lambda ax: plot_comb(NU, NU, NU / 2, 2 * NU, 1.1 * NU, ax),
+    "plot_vehicles": lambda ax: plot_vehicles(NU, CHART, PATHS, ax=ax),
+    "plot_window": lambda ax: plot_window(
+        ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
+    ),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
@@ -116,6 +139,13 @@ ON_ONE = {
     "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
     "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
+    "plot_free_wheels": lambda ax: plot_free_wheels(
+        {"relaxes": (T, 0.01 * T)}, {"1 g": (T, 0.02 * T), "0.1 g": (T, 0.015 * T)}, ax
+    ),
+    "plot_heaviest_wheel": lambda ax: plot_heaviest_wheel(
+        V, np.where(V < 0.5, np.inf, np.where(V < 8, 0, 0.1 / V)), [0.01], [1.2], ax
+    ),
+    "plot_energy": lambda ax: plot_energy(T, Energy(4 * T, T, T, 2 * T), [(0.2, 0.4)], ax),
     "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
 ON_TWO = {
@@ -137,8 +167,10 @@ PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $j$", "ampli
 PURE_NUMBERS += ["stop / spring stiffness $k_\\mathrm{s}/k$"]
 PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
 PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
+PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
+PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -536,3 +568,44 @@ def test_the_regions_say_which_steps_are_stable():
     ax = plot_stop_regions(RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6))
     said = [name for name in lines(ax) if "Delta t" in name]
     assert ["unstable" in name for name in said] == [False, True]
+
+
+def test_a_chart_marks_what_is_asked_by_its_verdict_and_shades_what_is_lost():
+    ax = plot_chart(
+        NU,
+        CHART,
+        {"follow": 1 / NU**2},
+        (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]),
+        own=0.03,
+    )
+    drawn = lines(ax)
+    near(drawn["asked, kept"].get_xydata(), [[1, 2.8]], 1e-15)
+    near(drawn["asked, lost"].get_xydata(), [[2, 2.8]], 1e-15)
+    thick = max(ax.lines, key=lambda line: line.get_linewidth())
+    near(thick.get_xydata(), [[0.05, 2.8], [1.5, 2.8]], 1e-15)
+    shaded = ax.collections[0].get_paths()[0].vertices
+    assert shaded[:, 1].max() == ax.get_ylim()[1]
+    assert shaded[:, 1].min() == pytest.approx(CHART[0.03].min(), rel=1e-12)
+    words = [text.get_text().strip() for text in ax.texts]
+    assert {"undamped", r"$\zeta$ = 0.03", r"$\zeta$ = 0.4", "follow", "contact lost"} <= set(words)
+
+
+def test_a_limit_is_named_along_its_line():
+    ax = plot_chart(NU, {0.03: CHART[0.03]}, {"follow": 1 / NU**2, "throw": NU / 2.5})
+    turned = {text.get_text(): text.get_rotation() for text in ax.texts}
+    assert 290 < turned["follow"] < 330 and 0 < turned["throw"] < 60
+
+
+def test_a_vehicle_is_drawn_apart_where_it_loses_contact():
+    ax = plot_vehicles(NU, CHART, {"car": PATHS["car,\nhump"]})
+    kept, lost = (line.get_xydata() for line in ax.lines[3:5])
+    assert not (np.isfinite(kept[:, 1]) & np.isfinite(lost[:, 1])).any()
+    assert (kept[np.isfinite(lost[:, 1]), 0] > 2).all()
+
+
+def test_names_of_vehicles_of_nearly_one_height_stand_on_two_sides():
+    ax = plot_vehicles(
+        NU, CHART, {"a": (NU[9:20], 0.5, NU[9:20] > 9), "b": (NU[9:20], 0.52, NU[9:20] > 9)}
+    )
+    sides = [text.get_ha() for text in ax.texts if text.get_text() in "ab"]
+    assert sorted(sides) == ["left", "right"]
