@@ -133,9 +133,12 @@ def distance_over(robot, bump, distance=None):
     first, last = robot.L2 + reach, bump.centre + reach + robot.L1
     on_it = np.abs(robot.arms - bump.centre) < reach - roundoff
     if on_it.any() or (asked is None and bump.centre < first - roundoff):
+        # Moved there, a wide bump or a long robot still does not fit.
+        enough = first + reach + robot.L1
+        too = f", and distance {_round_up(enough)} m or more" if enough > DISTANCE else ""
         raise ValueError(
             "bump must begin ahead of the robot, which starts at X = 0 on level ground: its centre "
-            f"must be at {_round_up(first)} m or more (L2 + {CLEAR:g} sigma), got "
+            f"must be at {_round_up(first)} m or more (L2 + {CLEAR:g} sigma){too}, got "
             f"centre={bump.centre:g} with sigma={bump.sigma:g}, L1={robot.L1:g}, L2={robot.L2:g}"
         )
     if asked is not None:
