@@ -21,13 +21,15 @@ What goes beyond:
 - `measured`: the spring with its preload, its curvature and an end stop
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
-and nothing above imports them.
+and nothing above imports them; `explore`, a picture with sliders, is loaded when it is first used.
 
 >>> import suspension
 >>> robot = suspension.Robot(k1=800, k2=800)
 >>> suspension.simulate(robot, suspension.GaussianBump(), v=1.2, dt=0.001, tfinal=1).loss
 Loss(wheel=2, t=0.177)
 """
+
+from typing import TYPE_CHECKING
 
 from suspension.contact import regimes
 from suspension.critical import critical_speeds
@@ -52,6 +54,7 @@ __all__ = [
     "Robot",
     "Scheme",
     "critical_speeds",
+    "explore",
     "fly",
     "highest_bump",
     "margin",
@@ -59,3 +62,19 @@ __all__ = [
     "regimes",
     "simulate",
 ]
+
+if TYPE_CHECKING:
+    from suspension.explorer import explore
+else:
+
+    def __getattr__(name):
+        # Widgets and figures take longer to load than all the rest, and most runs need none.
+        if name == "explore":
+            from suspension.explorer import explore
+
+            return explore
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -12,6 +12,8 @@ from suspension.course import RK4, make_forcing
 from suspension.exact import over_bump
 from suspension.flight import fly, make_flight_gfunc
 from suspension.least_force import distance_over, duration, sample_count
+from suspension.road import GaussianBump
+from suspension.schemes import Scheme
 from suspension.simulation import simulate
 
 __all__ = [
@@ -24,6 +26,7 @@ __all__ = [
     "event_run",
     "fitted_order",
     "flight_errors",
+    "half_turn",
     "just_lost",
     "missed_dip",
     "overlooked",
@@ -62,6 +65,7 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None, distance=None):
     Errors
         The run's loss of contact is where a cubic spline through its forces crosses zero.
     """
+    _checks.instance("bump", bump, GaussianBump)
     v = _checks.positive("v", v)
     tfinal = duration(robot, bump, v, tfinal, distance)
     run = simulate(robot, bump, v=v, dt=dt, tfinal=tfinal, scheme=scheme)
@@ -103,6 +107,8 @@ def evaluations(scheme, J):
     >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
     (101, 400)
     """
+    _checks.instance("scheme", scheme, Scheme)
+    J = _checks.whole("J", J, 0)
     starts_at_the_old_end = scheme.c[0] == 0 and not scheme.a[0].any()
     ends_at_the_new_one = np.all(scheme.a[-1] == scheme.b)
     reused = int(starts_at_the_old_end and ends_at_the_new_one)
@@ -129,9 +135,34 @@ def seen_mode(scheme, lam, dts):
     seen : ndarray of complex, shape (n,)
         1/s.
     """
-    dts = np.asarray(dts)
+    _checks.instance("scheme", scheme, Scheme)
+    dts = _steps(dts)
     R = scheme.stability_function(lam * dts)
     return (np.log(np.abs(R)) + 1j * np.unwrap(np.angle(R))) / dts
+
+
+def _steps(dts):
+    dts = _checks.array("dts", dts, (None,))
+    if not (dts > 0).all():
+        raise ValueError(f"dts must be time steps > 0, got {dts[~(dts > 0)][0]:g}")
+    return dts
+
+
+def half_turn(seen, dts):
+    """The first step in which a mode turns by more than half a circle, s; None if there is none.
+
+    Parameters
+    ----------
+    seen : ndarray of complex, shape (n,)
+        The eigenvalue of the mode that a run shows, 1/s: `seen_mode`.
+    dts : array_like, shape (n,)
+        Time steps, s, in order.
+    """
+    angle = seen.imag * np.asarray(dts)
+    after = int(np.argmax(angle > np.pi))
+    if after == 0:
+        return None
+    return float(np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1]))
 
 
 def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
@@ -238,6 +269,7 @@ def just_lost(robot, bump, critical, n=40, *, distance=None):
         left out, and without a critical speed there are none.
     """
     n = _checks.whole("n", n, 1)
+    critical = _checks.array("critical", critical, (None,))
     distance = distance_over(robot, bump, distance)
 
     def lost(v):
@@ -268,12 +300,23 @@ def missed_dip(robot, bump, v, *, distance=None, **options):
 def fitted_order(dts, errors):
     """Slope of log(error) against log(dt): the observed order of convergence.
 
-    Errors that are not finite are left out; nan if fewer than two are left.
+    Parameters
+    ----------
+    dts : array_like, shape (n,)
+        Time steps, s, > 0.
+    errors : array_like, shape (n,)
+        Those that are zero or not finite are left out.
+
+    Returns
+    -------
+    order : float
+        nan if fewer than two errors are left.
 
     >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
-    dts, errors = np.asarray(dts), np.asarray(errors)
+    dts = _steps(dts)
+    errors = _checks.array("errors", errors, dts.shape, finite=False)
     good = np.isfinite(errors) & (errors > 0)
     if good.sum() < 2:
         return np.nan
@@ -303,7 +346,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
     v, tfinal : float
         Speed, m/s, and final time, s.
     steps : sequence of int
-        Numbers of steps from 0 to `tfinal`.
+        Numbers of steps from 0 to `tfinal`, >= 1.
 
     Returns
     -------
@@ -311,6 +354,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         Largest error of a state component relative to its largest value in the run: for steps
         that ignore the switches, and for steps fitted between them.
     """
+    steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)
     scale = np.abs(flight.W).max(axis=1)
     gfunc = make_flight_gfunc(robot, road)
@@ -326,7 +370,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         blind.append(error(last(gfunc, robot.equilibrium, tfinal, J)))
         w = robot.equilibrium
         for start, end, pressing in flight.legs:
-            leg = make_flight_gfunc(robot, road, pressing, start)
+            leg = make_flight_gfunc(robot, road, pressing, start, end)
             w = last(leg, w, end - start, int(np.ceil(J * (end - start) / tfinal)))
         located.append(error(w))
     return np.array(blind), np.array(located)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from suspension import _checks
@@ -23,6 +24,8 @@ from suspension.least_force import (
     minima,
     turning_points,
 )
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 
 __all__ = [
     "WHEEL",
@@ -112,7 +115,7 @@ class Regimes:
         turns = np.diff(np.concatenate([[0], self.lost == lost, [0]]))
         return np.column_stack([self.edges[turns > 0], self.edges[turns < 0]])
 
-    def __call__(self, v):
+    def __call__(self, v: ArrayLike) -> np.ndarray:
         """Whether contact is lost at values `v` within the edges: bool, of the shape of `v`.
 
         At an edge between kept and lost the margin is zero, and contact lost.
@@ -136,7 +139,14 @@ class Regimes:
         return "\n".join(["Regimes(", *lines, ")"])
 
 
-def regimes(robot, bump, vmin, vmax, *, distance=None):
+def regimes(
+    robot: Robot,
+    bump: GaussianBump,
+    vmin: float,
+    vmax: float,
+    *,
+    distance: float | None = None,
+) -> Regimes:
     """At which speeds contact is kept on the way over the bump, and at which it is lost.
 
     Parameters

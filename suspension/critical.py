@@ -8,6 +8,8 @@ from scipy.optimize import brentq
 
 from suspension import _checks
 from suspension.least_force import distance_over, margin, sample_count
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 
 __all__ = ["critical_speeds", "critical_stiffness", "sensitivity", "zeros"]
 
@@ -15,7 +17,14 @@ RESOLUTION = 1e-5  # two critical values closer to each other than this (relativ
 MAX_SAMPLES = 4 * 10**6  # of the forces, in all margins on the first grid: some ten seconds
 
 
-def critical_speeds(robot, bump, vmin, vmax, *, distance=None):
+def critical_speeds(
+    robot: Robot,
+    bump: GaussianBump,
+    vmin: float,
+    vmax: float,
+    *,
+    distance: float | None = None,
+) -> np.ndarray:
     """Every speed at which the margin is zero: only there can the verdict change.
 
     Parameters

@@ -8,6 +8,7 @@ A mode of the robot answers a Gaussian bump with an error function of complex ar
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import wofz
 
 from suspension import _checks
@@ -74,7 +75,9 @@ def _decaying_cosine_and_sine(beta, omega0_squared, t):
     return ((fast + slow) / 2).real, sine.real
 
 
-def over_bump(robot, bump, v, t, w0=None):
+def over_bump(
+    robot: Robot, bump: GaussianBump, v: float, t: ArrayLike, w0: ArrayLike | None = None
+) -> np.ndarray:
     """The state of a robot that crosses a Gaussian bump, in closed form.
 
     Any robot: unsymmetric, undamped, overdamped, at or near critical damping (see `Crossing`).

@@ -3,9 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from suspension import _checks
-from suspension.road import road_input
+from suspension.road import Road, road_input
 from suspension.robot import Robot
 
 __all__ = ["WHEEL", "Loss", "first_loss", "normal_forces"]
@@ -20,7 +21,7 @@ class Loss(NamedTuple):
     t: float
 
 
-def normal_forces(robot, road, v, T, W):
+def normal_forces(robot: Robot, road: Road, v: float, T: ArrayLike, W: ArrayLike) -> np.ndarray:
     """Normal forces of a history, ``N = C w + D u`` (Eq. 5).
 
     Parameters
@@ -47,7 +48,7 @@ def normal_forces(robot, road, v, T, W):
     return robot.C @ W + robot.D @ road_input(robot, road, _checks.number("v", v), T)
 
 
-def first_loss(T, N):
+def first_loss(T: ArrayLike, N: ArrayLike) -> Loss | None:
     """The first sample at which a wheel no longer presses on the ground, N <= 0.
 
     Parameters

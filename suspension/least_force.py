@@ -43,7 +43,14 @@ class Minimum(NamedTuple):
     X: float
 
 
-def margin(robot, bump, v, tfinal=None, *, distance=None):
+def margin(
+    robot: Robot,
+    bump: GaussianBump,
+    v: float,
+    tfinal: float | None = None,
+    *,
+    distance: float | None = None,
+) -> float:
     """The least normal force of both wheels on the way over the bump, exact.
 
     The robot starts at X = 0, in the equilibrium of level ground, and keeps contact if and only if
@@ -126,9 +133,12 @@ def distance_over(robot, bump, distance=None):
     first, last = robot.L2 + reach, bump.centre + reach + robot.L1
     on_it = np.abs(robot.arms - bump.centre) < reach - roundoff
     if on_it.any() or (asked is None and bump.centre < first - roundoff):
+        # Moved there, a wide bump or a long robot still does not fit.
+        enough = first + reach + robot.L1
+        too = f", and distance {_round_up(enough)} m or more" if enough > DISTANCE else ""
         raise ValueError(
             "bump must begin ahead of the robot, which starts at X = 0 on level ground: its centre "
-            f"must be at {_round_up(first)} m or more (L2 + {CLEAR:g} sigma), got "
+            f"must be at {_round_up(first)} m or more (L2 + {CLEAR:g} sigma){too}, got "
             f"centre={bump.centre:g} with sigma={bump.sigma:g}, L1={robot.L1:g}, L2={robot.L2:g}"
         )
     if asked is not None:

@@ -155,6 +155,12 @@ def rest(robot, law, small=True):
     Returns
     -------
     w : ndarray, shape (4,) or (4, n)
+
+    Raises
+    ------
+    ValueError
+        If no pitch that is not small lets each spring carry its share: one would have to be more
+        than the wheelbase shorter than the other.
     """
     _checks.instance("robot", robot, Robot)
     _checks.instance("law", law, SpringLaw)
@@ -162,6 +168,11 @@ def rest(robot, law, small=True):
     # The rear wheel carries L2 / span of the weight, the front wheel L1 / span.
     rear, front = (-law.displacement(robot.m * robot.g * L / span) for L in (robot.L2, robot.L1))
     tilt = (front - rear) / span  # of ends that are so much lower than unstretched
+    if not small and (np.abs(tilt) > 1).any():
+        raise ValueError(
+            "robot and law must leave the springs at rest no further apart than the wheelbase, "
+            f"{span:g} m, got {np.abs(front - rear).max():g} m"
+        )
     w = np.zeros((4, *np.shape(rear)))
     w[0] = (robot.L2 * rear + robot.L1 * front) / span
     w[2] = tilt if small else np.arcsin(tilt)

@@ -1,10 +1,20 @@
-"""The ground: a road is any callable ``road(x) -> (H, dHdx)``, arrays in, arrays out."""
+"""The ground: a road is any callable ``road(x) -> (H, dHdx)``, arrays in, arrays out.
 
+A road may have two attributes, which `suspension.flight.fly` reads. `kinks` are the places, m, at
+which its slope or curvature jumps: a run stops there and starts anew. `resolution` is the size of
+its smallest feature between them, m: no step is longer than twice that.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from reprlib import repr as short
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator, PPoly
 
 from suspension import _checks
 
@@ -12,6 +22,7 @@ __all__ = [
     "ISO_8608",
     "FlatRoad",
     "GaussianBump",
+    "RoadProfile",
     "RoughRoad",
     "profile",
     "road_input",
@@ -22,7 +33,12 @@ __all__ = [
 ISO_8608 = {name: 16e-6 * 4**i for i, name in enumerate("ABCDEFGH")}
 N0 = 0.1  # cycles/m
 MAX_WAVES = 10**4
+STEEPEST = 1e6  # slope of a measured profile; what is steeper is a mistake in the units
+LONGEST = 1e9  # m, the same
 BLOCK = 10**6  # sines computed at a time, to bound the memory
+
+
+Road = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -51,7 +67,12 @@ class GaussianBump:
         ]:
             object.__setattr__(self, name, check(name, getattr(self, name)))
 
-    def __call__(self, x):
+    @property
+    def resolution(self) -> float:
+        """Size of the smallest feature, `sigma`, m."""
+        return self.sigma
+
+    def __call__(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`."""
         s = (_checks.array("x", x, finite=False) - self.centre) / self.sigma
         with np.errstate(over="ignore"):  # so far away that the height is zero
@@ -63,10 +84,122 @@ class GaussianBump:
 class FlatRoad:
     """Level ground, ``H = 0``."""
 
-    def __call__(self, x):
+    resolution = 1e9  # m: there is nothing to step over
+
+    def __call__(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return height 0 and slope 0 at positions `x`, each of the shape of `x`."""
         x = _checks.array("x", x, finite=False)
         return np.zeros_like(x), np.zeros_like(x)
+
+
+@dataclass(frozen=True, eq=False)
+class RoadProfile:
+    """A measured road: heights at given places, joined by curves or by straight lines.
+
+    Before the first point and after the last the ground is level, at their heights.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,)
+        Positions, m, at least two, each larger than the one before.
+    h : array_like, shape (n,)
+        Heights there, m.
+    kind : {"pchip", "linear"}
+        What lies between two points. ``"pchip"``, for samples of a smooth road: cubic pieces whose
+        slope has no jump and which keep between the heights at their ends, so that no measured top
+        is overshot (Fritsch and Butland 1984); the slope is zero at every top, dip and end.
+        ``"linear"``, for corners of a trapezoid or a ramp: straight lines, whose slope jumps at the
+        points, and with it the force of a damper.
+
+    Examples
+    --------
+    >>> ramp = RoadProfile([0, 0.1], [0, 0.01], kind="linear")
+    >>> [value.round(3).tolist() for value in ramp([-1, 0.05, 1])]
+    [[0.0, 0.005, 0.01], [0.0, 0.1, 0.0]]
+    """
+
+    x: np.ndarray
+    h: np.ndarray
+    kind: Literal["pchip", "linear"] = "pchip"
+
+    if TYPE_CHECKING:  # what one may give is more than what one gets
+
+        def __init__(
+            self, x: ArrayLike, h: ArrayLike, kind: Literal["pchip", "linear"] = "pchip"
+        ) -> None: ...
+
+    def __post_init__(self):
+        x = _checks.array("x", self.x, (None,))
+        h = _checks.array("h", self.h, (None,))
+        if len(x) < 2:
+            raise ValueError(f"x must have two points at least, got {len(x)}")
+        if len(h) != len(x):
+            raise ValueError(f"h must have a height for each x, {len(x)}, got {len(h)}")
+        back = np.flatnonzero(x[1:] <= x[:-1])
+        if back.size:
+            i = back[0]
+            remedy = "keep one point for each place" if x[i] == x[i + 1] else "sort the points"
+            raise ValueError(
+                f"x must increase from point to point, got x[{i + 1}] = {x[i + 1]:g} m after "
+                f"x[{i}] = {x[i]:g} m: {remedy}"
+            )
+        _checks.one_of("kind", self.kind, ("pchip", "linear"))
+        with np.errstate(over="ignore"):
+            length, slopes = x[-1] - x[0], np.diff(h) / np.diff(x)
+        if not length < LONGEST:
+            raise ValueError(f"x must span less than {LONGEST:g} m, got {length:g} m")
+        if not np.abs(slopes).max() < STEEPEST:
+            i = np.abs(slopes).argmax()
+            raise ValueError(
+                f"h must have slopes below {STEEPEST:g}, got {slopes[i]:g} at x = {x[i]:g} m"
+            )
+        for name, value in (("x", x), ("h", h)):
+            value = value.copy()
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+    @property
+    def _content(self):
+        return self.kind, tuple(self.x.tolist()), tuple(self.h.tolist())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, RoadProfile) and self._content == other._content
+
+    def __hash__(self) -> int:
+        return hash(self._content)
+
+    @property
+    def kinks(self) -> np.ndarray:
+        """Where one piece ends and the next begins, m: the points, shape (n,)."""
+        return self.x
+
+    @property
+    def resolution(self) -> float:
+        """Size of its smallest feature, m: between two kinks it has none."""
+        return float(self.x[-1] - self.x[0])
+
+    @cached_property
+    def _pieces(self):
+        """Height and slope between the points, two of SciPy's piecewise polynomials."""
+        x, h = self.x, self.h
+        if self.kind == "linear":
+            height = PPoly(np.array([np.diff(h) / np.diff(x), h[:-1]]), x)
+        else:
+            # A level piece on either side, so that the slope has no jump at the ends either.
+            around = [x[0] - (x[1] - x[0]), *x, x[-1] + (x[-1] - x[-2])]
+            with np.errstate(over="ignore"):  # the reciprocal of a slope of next to nothing
+                height = PchipInterpolator(around, [h[0], *h, h[-1]])
+        return height, height.derivative()
+
+    def __call__(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`.
+
+        At a point where the slope jumps it is that of the piece after it.
+        """
+        x = _checks.array("x", x, finite=False)
+        height, slope = self._pieces
+        on = (x >= self.x[0]) & (x < self.x[-1])
+        return height(np.clip(x, self.x[0], self.x[-1])), np.where(on, slope(x), 0.0)
 
 
 @dataclass(frozen=True)
@@ -115,16 +248,26 @@ class RoughRoad:
                 f"shortest must be from length / {MAX_WAVES} to length, got "
                 f"shortest={self.shortest:g}, length={self.length:g}"
             )
+        if not isfinite(2 * self.roughness * (N0 * self.length) * N0 + 2 * self.roughness):
+            raise ValueError(
+                "roughness must be so small that heights are finite, got "
+                f"roughness={self.roughness:g}, length={self.length:g}"
+            )
+
+    @property
+    def resolution(self) -> float:
+        """Size of the smallest feature, m: an eighth of the shortest wave."""
+        return self.shortest / 8
 
     @cached_property
-    def wavenumbers(self):
+    def wavenumbers(self) -> np.ndarray:
         """``n_j`` in cycles/m, shape (waves,)."""
         n = np.arange(1, int(self.length / self.shortest * (1 + 1e-12)) + 1) / self.length
         n.setflags(write=False)
         return n
 
     @cached_property
-    def amplitudes(self):
+    def amplitudes(self) -> np.ndarray:
         """``a_j`` in m, complex, shape (waves,)."""
         n = self.wavenumbers
         phases = np.random.default_rng(self.seed).uniform(0, 2 * np.pi, len(n))
@@ -132,7 +275,7 @@ class RoughRoad:
         a.setflags(write=False)
         return a
 
-    def __call__(self, x):
+    def __call__(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`."""
         x = _checks.array("x", x, finite=False)
         rate = 2j * np.pi * self.wavenumbers

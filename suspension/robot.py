@@ -6,8 +6,10 @@ the front (2) wheel. Two physical statements are written down, the forces ``N = 
 the accelerations they cause, ``w' = S w + P N + e``; everything else follows from them.
 """
 
+from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, fields
 from functools import cached_property, wraps
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from suspension import _checks
 __all__ = ["Robot"]
 
 
-def _constant(method):
+def _constant(method: Callable[[Any], np.ndarray]) -> "cached_property[np.ndarray]":
     # Computed once per robot; read-only, because every later reader gets the same array.
     @wraps(method)
     def compute(self):
@@ -81,40 +83,40 @@ class Robot:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @_constant
-    def k(self):
+    def k(self) -> np.ndarray:
         """Stiffnesses, rear and front, N/m, shape (2,)."""
         return np.array([self.k1, self.k2])
 
     @_constant
-    def c(self):
+    def c(self) -> np.ndarray:
         """Damping coefficients, rear and front, N s/m, shape (2,)."""
         return np.array([self.c1, self.c2])
 
     @_constant
-    def arms(self):
+    def arms(self) -> np.ndarray:
         """Where the wheels are, ahead of the centre of mass, ``[-L1, L2]``, m, shape (2,)."""
         return np.array([-self.L1, self.L2])
 
     @_constant
-    def C(self):
+    def C(self) -> np.ndarray:
         """State to normal forces, Eqs. 2 and 5, shape (2, 4)."""
         k, c, arms = self.k, self.c, self.arms
         return -np.column_stack([k, c, k * arms, c * arms])
 
     @_constant
-    def D(self):
+    def D(self) -> np.ndarray:
         """Road input to normal forces, Eq. 5, shape (2, 4)."""
         return np.hstack([np.diag(self.k), np.diag(self.c)])
 
     @_constant
-    def S(self):
+    def S(self) -> np.ndarray:
         """The shift: Y' and theta' are themselves states, shape (4, 4)."""
         S = np.zeros((4, 4))
         S[0, 1] = S[2, 3] = 1.0
         return S
 
     @_constant
-    def P(self):
+    def P(self) -> np.ndarray:
         """Normal forces to accelerations, Eq. 6, shape (4, 2)."""
         P = np.zeros((4, 2))
         P[1] = 1 / self.m
@@ -122,22 +124,22 @@ class Robot:
         return P
 
     @_constant
-    def e(self):
+    def e(self) -> np.ndarray:
         """Weight, Eq. 6, shape (4,)."""
         return np.array([0.0, -self.g, 0.0, 0.0])
 
     @_constant
-    def A(self):
+    def A(self) -> np.ndarray:
         """State matrix of ``w' = A w + B u + e``, shape (4, 4)."""
         return self.S + _product(self.P, self.C)
 
     @_constant
-    def B(self):
+    def B(self) -> np.ndarray:
         """Input matrix of ``w' = A w + B u + e``, shape (4, 4)."""
         return _product(self.P, self.D)
 
     @_constant
-    def equilibrium(self):
+    def equilibrium(self) -> np.ndarray:
         """The state at rest on flat ground, ``A w + e = 0`` (Eq. 8 when symmetric), shape (4,).
 
         Solved for Y and theta alone, so that the two velocities are exactly zero.
@@ -147,14 +149,23 @@ class Robot:
         return w + 0.0  # no -0.0
 
     @property
-    def eigenvalues(self):
+    def eigenvalues(self) -> np.ndarray:
         """Eigenvalues of A in 1/s, shape (4,), complex: slowest first, conjugates together."""
         return self._eigen[0]
 
     @property
-    def eigenvectors(self):
+    def eigenvectors(self) -> np.ndarray:
         """Eigenvectors of A as columns in the order of `eigenvalues`, shape (4, 4), complex."""
         return self._eigen[1:]
+
+    @_constant
+    def heave_share(self) -> np.ndarray:
+        """How much of each mode is heave, 0 to 1, shape (4,).
+
+        Heave and pitch are compared at the wheel that is further from the centre of mass.
+        """
+        heave, _, pitch, _ = np.abs(self.eigenvectors)
+        return heave / (heave + np.abs(self.arms).max() * pitch)
 
     @_constant
     def _eigen(self):

@@ -5,9 +5,11 @@ computed from the tableau and from nothing else, so a new method is one line of 
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike
 
 from suspension import _checks
 
@@ -54,6 +56,12 @@ class Scheme:
     b: np.ndarray
     c: np.ndarray
 
+    if TYPE_CHECKING:  # what one may give is more than what one gets
+
+        def __init__(
+            self, name: str, order: int, a: ArrayLike, b: ArrayLike, c: ArrayLike
+        ) -> None: ...
+
     def __post_init__(self):
         _checks.instance("name", self.name, str)
         b = _checks.array("b", self.b, (None,))
@@ -73,16 +81,16 @@ class Scheme:
     def _content(self):
         return self.name, self.order, *(tuple(x.ravel().tolist()) for x in (self.a, self.b, self.c))
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         return isinstance(other, Scheme) and self._content == other._content
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return hash(self._content)
 
     def __reduce__(self):  # a copy is checked and read-only again
         return Scheme, (self.name, self.order, self.a, self.b, self.c)
 
-    def stability_function(self, z):
+    def stability_function(self, z: ArrayLike) -> np.ndarray:
         """Growth per step of ``w' = lambda w``: ``R(z) = 1 + z b^T (I - z a)^-1 1``.
 
         Parameters
@@ -102,14 +110,14 @@ class Scheme:
         return np.where(np.isfinite(R), R, np.inf)
 
     @property
-    def polynomials(self):
+    def polynomials(self) -> tuple[Polynomial, Polynomial]:
         """Numerator and denominator of R, ``det(I - z (a - 1 b^T))`` and ``det(I - z a)``.
 
         Two `numpy.polynomial.Polynomial`; the denominator of an explicit method is 1.
         """
         return _determinant(self.a - self.b), _determinant(self.a)
 
-    def one_step(self, A, dt):
+    def one_step(self, A: ArrayLike, dt: float) -> tuple[np.ndarray, np.ndarray]:
         """Matrices of one step, ``w_{n+1} = R w_n + sum_i G_i F(t_n + c_i dt)``.
 
         Parameters
@@ -138,12 +146,12 @@ class Scheme:
         G = np.moveaxis(G.reshape(*A.shape[:-2], s, n, n), -3, 0).swapaxes(-1, -2)
         return np.eye(n) + G.sum(axis=0) @ A, G
 
-    def is_stable(self, eigenvalues, dt):
+    def is_stable(self, eigenvalues: ArrayLike, dt: float) -> bool:
         """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to 1e-12)."""
         z = _checks.array("eigenvalues", eigenvalues, dtype=complex) * _checks.positive("dt", dt)
         return bool((np.abs(self.stability_function(z)) <= 1 + TOLERANCE).all())
 
-    def max_stable_dt(self, eigenvalues):
+    def max_stable_dt(self, eigenvalues: ArrayLike) -> float:
         """The largest step up to which every smaller one is stable too, in s; inf if all are.
 
         Along a ray ``z = lambda dt`` the method is stable where ``|Q|^2 - |P|^2 >= 0``, a real
@@ -174,7 +182,7 @@ class Scheme:
         unstable = slack(inside) < 0
         return edges[unstable.argmax()] / modulus if unstable.any() else np.inf
 
-    def boundary(self, n=400):
+    def boundary(self, n: int = 400) -> np.ndarray:
         """The neutral curve ``|R(z)| = 1`` through z = 0, like the course's ``rk4sb``.
 
         Traced in the upper half-plane by following the root of ``R(z) = exp(i phi)`` from z = 0

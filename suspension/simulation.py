@@ -7,15 +7,20 @@ solving it from the top down *is* the time loop: LAPACK's ``dtbtrs`` runs it.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg.lapack import dtbtrs
 
 from suspension import _checks
 from suspension.forces import Loss, first_loss
-from suspension.road import under_wheels
+from suspension.road import Road, under_wheels
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
+
+if TYPE_CHECKING:
+    import pandas
 
 __all__ = ["Trajectory", "simulate", "steps"]
 
@@ -53,9 +58,19 @@ class Trajectory:
         return first_loss(self.T, self.N)
 
     @property
-    def X(self):
+    def X(self) -> np.ndarray:
         """Position of the centre of mass, m (Eq. 1), shape (J+1,)."""
         return self.v * self.T
+
+    def to_frame(self) -> "pandas.DataFrame":
+        """The run as a pandas DataFrame, a row for each time, with units in the columns' names.
+
+        >>> from suspension.road import FlatRoad
+        >>> run = simulate(Robot(800, 800), FlatRoad(), v=1, dt=0.1, tfinal=1)
+        >>> run.to_frame().columns[-2:].tolist()
+        ['N1 rear (N)', 'N2 front (N)']
+        """
+        return as_frame(self)
 
     def __repr__(self):
         return (
@@ -64,7 +79,34 @@ class Trajectory:
         )
 
 
-def simulate(robot, road, *, v, dt, tfinal, scheme=RK4, w0=None):
+def as_frame(run, more=None):
+    """A `Trajectory` or another run with T, v, W and N as a pandas DataFrame, `more` after them."""
+    import pandas  # on demand: it takes longer to load than the package and most runs to compute
+
+    Y, dY, theta, dtheta = run.W
+    columns = {
+        "t (s)": run.T,
+        "X (m)": run.v * run.T,
+        "Y (m)": Y,
+        "Y' (m/s)": dY,
+        "theta (rad)": theta,
+        "theta' (rad/s)": dtheta,
+        "N1 rear (N)": run.N[0],
+        "N2 front (N)": run.N[1],
+    }
+    return pandas.DataFrame(columns | (more or {}))
+
+
+def simulate(
+    robot: Robot,
+    road: Road,
+    *,
+    v: float,
+    dt: float,
+    tfinal: float,
+    scheme: Scheme = RK4,
+    w0: ArrayLike | None = None,
+) -> Trajectory:
     """Integrate ``w' = A w + B u(t) + e`` (Eqs. 1 to 6) from t = 0.
 
     Parameters
@@ -179,7 +221,7 @@ def _forward_substitution(band, b):
     return w.reshape(b.shape)
 
 
-def steps(tfinal, dt, name="dt"):
+def steps(tfinal: float, dt: float, name: str = "dt") -> int:
     """Number of steps J from 0 to `tfinal`: ``ceil(tfinal / dt)``, forgiving roundoff.
 
     >>> steps(0.3, 0.1), steps(0.3001, 0.1)

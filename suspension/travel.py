@@ -1,6 +1,6 @@
 """Where the model itself is in doubt: how far the springs travel and how far the body tilts.
 
-And what to look at in a flight: the moments that tell its story.
+And what to look at: the two parts of the least force, the moments that tell the story of a flight.
 """
 
 from dataclasses import replace
@@ -9,15 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from suspension import _checks
-from suspension.contact import critical_speeds, exact_loss, margin, minima
+from suspension.contact import critical_speeds, exact_loss, margin, minima, regimes_between
 from suspension.critical import zeros
 from suspension.exact import over_bump
-from suspension.forces import WHEEL
 from suspension.least_force import distance_over
 from suspension.road import road_input
 
 __all__ = [
     "Balance",
+    "Moment",
+    "Overtravel",
     "Travel",
     "balance",
     "compression_map",
@@ -29,6 +30,8 @@ __all__ = [
 
 
 MAX_SAMPLES = 10**6
+REAR, FRONT = 1, 2
+PUSHES = 1 / 7  # of the force at rest: a spring that gives more is still compressed
 
 
 class Travel(NamedTuple):
@@ -75,6 +78,17 @@ def _compression(robot, bump, v, t, W):
     return road_input(robot, bump, v, t)[:2] - ends
 
 
+class Overtravel(NamedTuple):
+    """A range of speeds, m/s, in which a spring is compressed by more than a limit.
+
+    `times` is the largest compression found there, in units of the limit.
+    """
+
+    low: float
+    high: float
+    times: float
+
+
 def overtravel(robot, bump, limit, vmin, vmax, *, distance=None):
     """The ranges of speed in which a spring is compressed by more than `limit`.
 
@@ -94,37 +108,39 @@ def overtravel(robot, bump, limit, vmin, vmax, *, distance=None):
 
     Returns
     -------
-    ranges : ndarray, shape (n, 2)
-        Lower and upper edges, m/s, in order. A range narrower than a fortieth of its speed may be
-        missed.
+    ranges : tuple of Overtravel
+        In order. A range narrower than a fortieth of its speed may be missed.
 
     Examples
     --------
     >>> from suspension.road import GaussianBump
     >>> from suspension.robot import Robot
-    >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.5, 2).round(2)
-    array([[0.73, 2.  ]])
+    >>> (found,) = overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.5, 2)
+    >>> round(found.low, 2), round(found.high, 2), round(found.times, 2)
+    (0.73, 2.0, 1.71)
     """
     limit = _checks.positive("limit", limit)
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+    distance = distance_over(robot, bump, distance)
+    reached = {}  # by speed, in units of the limit
 
-    def excess(x):
-        most = travel(robot, bump, np.exp(x), 1001, distance=distance).compression
-        return most / limit - 1
+    def spare(v):
+        reached[v] = travel(robot, bump, v, 1001, distance=distance).compression / limit
+        return 1 - reached[v]
 
     samples = 2 + int(40 * np.log(vmax / vmin))
     x = np.linspace(np.log(vmin), np.log(vmax), samples)
     # The moment of the loss jumps at a critical speed.
     turns = np.log(critical_speeds(robot, bump, vmin, vmax, distance=distance))
-    edges = np.array([vmin, *np.exp(zeros(excess, np.union1d(x, turns))), vmax])
-    inside = [excess(np.log(middle)) > 0 for middle in np.sqrt(edges[1:] * edges[:-1])]
-    ranges = []
-    for left, right, beyond in zip(edges[:-1], edges[1:], inside, strict=True):
-        if beyond and ranges and ranges[-1][1] == left:
-            ranges[-1][1] = right
-        elif beyond:
-            ranges.append([left, right])
-    return np.array(ranges).reshape(-1, 2)
+    edges = np.exp(zeros(lambda x: spare(np.exp(x)), np.union1d(x, turns)))
+    inside = edges[(vmin < edges) & (edges < vmax)]
+    beyond = regimes_between(spare, [vmin, *inside, vmax]).spans(lost=True)  # no way is spare
+    return tuple(
+        Overtravel(
+            float(low), float(high), float(max(r for v, r in reached.items() if low <= v <= high))
+        )
+        for low, high in beyond
+    )
 
 
 def margin_map(robot, bump, v, k, *, distance=None):
@@ -162,11 +178,20 @@ def compression_map(robot, bump, v, k, *, distance=None):
 
 
 class Balance(NamedTuple):
-    """What the force on a wheel, 1 (rear) or 2 (front), is the sum of: spring and damper, N."""
+    """What the least force on a wheel, 1 (rear) or 2 (front), is the sum of: spring and damper, N.
+
+    `rest` is the force on this wheel at rest, N.
+    """
 
     wheel: int
     spring: float
     damper: float
+    rest: float
+
+    @property
+    def pulled(self):
+        """Whether the spring still pushes, so that it is the damper that takes the force away."""
+        return self.spring > PUSHES * self.rest
 
 
 def balance(robot, bump, v, *, distance=None):
@@ -179,11 +204,24 @@ def balance(robot, bump, v, *, distance=None):
     i = least.wheel - 1
     compression = _compression(robot, bump, v, t, over_bump(robot, bump, v, t))
     spring = float(robot.k[i] * compression[i, 0])
-    return Balance(least.wheel, spring, least.force - spring)
+    rest = float(robot.C[i] @ robot.equilibrium)
+    return Balance(least.wheel, spring, least.force - spring, rest)
+
+
+class Moment(NamedTuple):
+    """A moment of a drive: what happens, to which wheel (None: to the body), and when, s.
+
+    `kind` is ``"foot"``, ``"top"`` (of the bump) or ``"past"`` (it), ``"lift-off"``, ``"apex"``
+    (the highest point of that flight), ``"landing"``, or ``"highest"`` (of both wheels).
+    """
+
+    kind: str
+    wheel: int | None
+    t: float
 
 
 def moments(flight, robot, bump, *, distance=None):
-    """The moments on the way over the bump that tell the story of a flight, with words for each.
+    """The moments on the way over the bump that tell the story of a flight.
 
     Parameters
     ----------
@@ -195,38 +233,48 @@ def moments(flight, robot, bump, *, distance=None):
 
     Returns
     -------
-    moments : dict of float to str
-        Times, s, in order. With a lift-off: the front wheel at the foot of the bump, the first
-        lift-off, the highest point of that flight, its landing, and the highest wheel of all.
-        Without: the front wheel at the foot and on the top of the bump, the body over the top, the
-        rear wheel on it, and both past it.
+    moments : tuple of Moment
+        In order. With a lift-off: the front wheel at the foot of the bump, the first lift-off, the
+        apex of that flight, its landing, and the highest wheel of all. Without: the front wheel at
+        the foot and on the top of the bump, the body over the top, the rear wheel on it, and both
+        past it.
     """
     v = _checks.positive("flight's v", flight.v)
     end = distance_over(robot, bump, distance) / v
-    foot = bump.centre - 2 * bump.sigma
-    told = {(foot - robot.L2) / v: f"the {WHEEL[2]} wheel reaches the bump"}
-    lift_offs = [event for event in flight.events if event.kind == "lift-off" and event.t <= end]
-    if not lift_offs:
-        told[(bump.centre - robot.L2) / v] = f"the {WHEEL[2]} wheel is on its top"
-        told[bump.centre / v] = "the body is over it"
-        told[(bump.centre + robot.L1) / v] = f"the {WHEEL[1]} wheel is on its top"
-        told[(bump.centre + 2 * bump.sigma + robot.L1) / v] = "both have passed"
-        return told
-    first = lift_offs[0]
-    told[first.t] = f"the {WHEEL[first.wheel]} wheel lifts off"
-    landings = [
-        event.t
-        for event in flight.events
-        if event.wheel == first.wheel and event.kind == "landing" and first.t < event.t <= end
-    ]
+
+    def passing(kind, place, wheel=None):
+        """The moment at which a wheel, or the body, is at a place."""
+        arm = 0.0 if wheel is None else robot.arms[wheel - 1]
+        return Moment(kind, wheel, float((place - arm) / v))
+
+    foot = passing("foot", bump.centre - 2 * bump.sigma, FRONT)
+    events = [event for event in flight.events if event.t <= end]
+    first = next((event for event in events if event.kind == "lift-off"), None)
+    if first is None:
+        return (
+            foot,
+            passing("top", bump.centre, FRONT),
+            passing("top", bump.centre),
+            passing("top", bump.centre, REAR),
+            passing("past", bump.centre + 2 * bump.sigma, REAR)._replace(wheel=None),
+        )
+    landing = next(
+        (
+            event
+            for event in events
+            if (event.kind, event.wheel) == ("landing", first.wheel) and event.t > first.t
+        ),
+        None,
+    )
+    told = [foot, Moment("lift-off", first.wheel, first.t)]
     gaps = np.where(flight.T <= end, flight.gaps, -1)
-    aloft = (flight.T > first.t) & (flight.T < (landings[0] if landings else end))
+    aloft = (flight.T > first.t) & (flight.T < (landing.t if landing else end))
     height = np.where(aloft, gaps[first.wheel - 1], 0)
     if height.max() > 0:  # a very short flight has no sample, and a wheel need not rise in it
-        told[float(flight.T[height.argmax()])] = "it is at the top of this flight"
-    if landings:
-        told[landings[0]] = "it lands"
+        told.append(Moment("apex", first.wheel, float(flight.T[height.argmax()])))
+    if landing:
+        told.append(Moment("landing", first.wheel, landing.t))
     i, j = np.unravel_index(gaps.argmax(), gaps.shape)
-    if gaps[i, j] > 0 and float(flight.T[j]) not in told:
-        told[float(flight.T[j])] = f"the {WHEEL[i + 1]} wheel is at its highest"
-    return dict(sorted(told.items()))
+    if gaps[i, j] > 0 and flight.T[j] not in [moment.t for moment in told]:
+        told.append(Moment("highest", int(i) + 1, float(flight.T[j])))
+    return tuple(sorted(told, key=lambda moment: moment.t))

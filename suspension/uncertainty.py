@@ -28,7 +28,6 @@ __all__ = [
     "critical_speed_intervals",
     "critical_speeds_by_stiffness",
     "loss_probability",
-    "stiffness_distribution",
 ]
 
 WIDEST = 20.0  # stiffnesses further from the estimate than this factor are left out
@@ -57,30 +56,9 @@ class CriticalSpeed(NamedTuple):
     dies: End | None
 
     @property
-    def exists_from(self):
-        """The stiffness in N/m above which it exists, None if that is outside the interval."""
-        return self.born and self.born.k
-
-    @property
-    def exists_to(self):
-        """The stiffness in N/m up to which it exists, None if that is outside the interval."""
-        return self.dies and self.dies.k
-
-    @property
     def everywhere(self):
         """Whether it exists in the whole interval of the stiffness."""
         return self.born is None and self.dies is None
-
-
-def stiffness_distribution(stiffness):
-    """Confidence distribution of the stiffness in N/m, a frozen `scipy.stats.t`.
-
-    Parameters
-    ----------
-    stiffness : Stiffness or SpringFit
-        Of a fit, the slope at zero.
-    """
-    return _stiffness(stiffness).distribution
 
 
 def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95, *, distance=None):

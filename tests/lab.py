@@ -28,7 +28,7 @@ OPTIONS = (
 
 
 @contextmanager
-def serve(folder):
+def serve(folder, *options):
     """Start JupyterLab in a folder, without the user's settings; its address, ending in a slash."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -37,7 +37,7 @@ def serve(folder):
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     command = [sys.executable, "-m", "jupyterlab", *OPTIONS, f"--port={port}"]
     server = subprocess.Popen(
-        [*command, f"--ServerApp.root_dir={folder}"],
+        [*command, f"--ServerApp.root_dir={folder}", *options],
         env=os.environ | own | {"PYTHONPATH": path},
         cwd=folder,
         stdout=subprocess.DEVNULL,
@@ -57,15 +57,11 @@ def serve(folder):
 
 
 def run_all(tab, address, notebook):
-    """Open a notebook, run all its cells, and wait for the explorer."""
-    tab.goto(f"{address}lab/tree/{notebook}")
+    """Open a notebook alone, run all its cells, and wait for the explorer."""
+    tab.goto(f"{address}lab/tree/{notebook}?reset")
     # Asked to run before the kernel is there, JupyterLab asks back which one.
-    for _ in range(180):
-        kernels = tab.request.get(f"{address}api/kernels").json()
-        if "idle" in [kernel["execution_state"] for kernel in kernels]:
-            break
-        tab.wait_for_timeout(500)
+    tab.get_by_text("(ipykernel) | Idle").wait_for(timeout=90_000)
     tab.wait_for_timeout(1000)
     tab.get_by_role("menuitem", name="Run", exact=True).click()
     tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    tab.wait_for_selector(".suspension-explorer-box canvas[aria-label]", timeout=90_000)
+    tab.wait_for_selector(".suspension-explorer-box.se-live canvas[aria-label]", timeout=90_000)

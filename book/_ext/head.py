@@ -10,6 +10,7 @@ import os
 import re
 from html import escape
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from docutils import nodes
 
@@ -17,11 +18,13 @@ BRANCH = "main"
 LONGEST = 200  # characters of a description
 LOST = """<section id="lost"><h1>This page is not here</h1>
 <p>The address leads to no page of this book. It may have moved: look for it in the contents, or
-<a href="{search}">search</a>, or start from <a href="{home}">the first page</a>.</p></section>"""
+<a href="search.html">search</a>, or start from <a href="index.html">the first page</a>.</p>
+</section>"""
 
 
 def configure(app, config):
-    """Read the addresses."""
+    """Read the addresses, and give the book's name to all that ask for that of a project."""
+    config.project = config.html_title
     config.html_baseurl = os.environ.get("BOOK_ADDRESS", "").rstrip("/")
     config.html_baseurl += "/" if config.html_baseurl else ""
     repository = os.environ.get("BOOK_REPOSITORY", "").rstrip("/")
@@ -76,10 +79,13 @@ def description(doctree):
 
 
 def lost_page(app):
-    """A page for addresses that lead nowhere; servers show it at any depth."""
-    start = app.config.html_baseurl
-    body = LOST.format(search=f"{start}search.html", home=f"{start}index.html")
-    yield "404", {"title": "Not found", "body": body}, "page.html"
+    """A page for addresses that lead nowhere; servers show it at any depth.
+
+    There its links and its style are found from the folder of the book, if that is known.
+    """
+    start = urlsplit(app.config.html_baseurl).path
+    base = f'<base href="{escape(start)}" />' if start else ""
+    yield "404", {"title": "Not found", "body": LOST, "metatags": base}, "page.html"
 
 
 def draw_preview(app, exception):

@@ -45,7 +45,9 @@ def definitions(module):
     """What a module defines, by name in order, and where it has imported the rest from."""
     path = Path(importlib.import_module(module).__file__)
     own, imported = [], {}
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    later = [node for part in body if isinstance(part, ast.If) for node in part.body]
+    for node in [*body, *later]:
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
             own.append(node.name)
         elif isinstance(node, ast.Assign):

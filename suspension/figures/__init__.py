@@ -2,9 +2,11 @@
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
 the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
-`speeds`, `similarity`, `measured`, `choice`, and `robot`, the robot itself, still or moving.
+`speeds`, `similarity`, `air`, `measured`, `choice`, and `robot`, the robot itself, still or
+moving.
 """
 
+from suspension.figures.air import plot_energy, plot_free_wheels, plot_heaviest_wheel
 from suspension.figures.choice import (
     plot_demand_map,
     plot_front,
@@ -45,15 +47,18 @@ __all__ = [
     "plot_confidence_region",
     "plot_contact_states",
     "plot_demand_map",
+    "plot_energy",
     "plot_errors",
     "plot_experiments",
     "plot_fit",
     "plot_flight",
     "plot_forces",
+    "plot_free_wheels",
     "plot_front",
     "plot_gains",
     "plot_growth",
     "plot_heave",
+    "plot_heaviest_wheel",
     "plot_margin",
     "plot_margin_map",
     "plot_margins",

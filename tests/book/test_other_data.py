@@ -15,12 +15,13 @@ import numpy as np
 import pytest
 import scipy.io
 from bs4 import BeautifulSoup
-from helpers import ROOT
+from helpers import ROOT, windows_locale
 
 from suspension import RK4, GaussianBump, Robot, margin
 from suspension.springs import fit_spring, load_spring_data
 
 PARTS = ("suspension", "notebooks", "data", "book", "benchmarks", "_config.yml", "_toc.yml")
+PARTS += ("pyproject.toml", "README.md", "LICENSE")  # what a wheel is made from
 NOT_ABOUT_THE_SPRING = ("reference", "references", "speed")
 NEVER = {
     "a number that is none": r"\bnan\b|\binf\b|\bNone\b|\bnone m/s",
@@ -56,7 +57,7 @@ def soft_spring(path):
     force = 250 * 0.0165 * x + np.random.default_rng(5).normal(0, 0.02, x.size)
     lines = [f"{a:.4f};{b:.3f}".replace(".", ",") for a, b in zip(x, force)]
     path = path / "spring_data.csv"
-    path.write_text("\n".join(["delta_over_delta_max;force", *lines, ""]))
+    path.write_text("\n".join(["delta_over_delta_max;force", *lines, ""]), encoding="utf-8")
     return path
 
 
@@ -71,7 +72,7 @@ def curved_spring(path):
 
 @pytest.fixture(scope="module", params=[soft_spring, curved_spring], ids=lambda make: make.__name__)
 def book(request, tmp_path_factory):
-    """A book that was built with such data."""
+    """A book that was built with such data, on a system that does not speak UTF-8 by itself."""
     tree = tmp_path_factory.mktemp(request.param.__name__)
     for part in PARTS:
         if (ROOT / part).is_dir():
@@ -79,13 +80,15 @@ def book(request, tmp_path_factory):
         else:
             shutil.copy(ROOT / part, tree)
     data = request.param(tree / "data")
+    system = windows_locale(tmp_path_factory.mktemp("locale"))
     build = [Path(sys.executable).with_name("jupyter-book"), "build", ".", "--all"]
     run = subprocess.run(
         [*build, "-W", "-n", "--keep-going"],
         cwd=tree,
-        env=os.environ | {"PYTHONPATH": str(tree)},
+        env=os.environ | system | {"PYTHONPATH": str(tree)},
         capture_output=True,
-        text=True,
+        encoding="utf-8",
+        errors="replace",
     )
     assert run.returncode == 0, (run.stdout + run.stderr)[-3000:]
     built = tree / "_build" / "html"
@@ -101,7 +104,7 @@ def book(request, tmp_path_factory):
 
 def readable(path):
     """What a reader reads on a page, alternative texts included: no code, no formulas."""
-    article = BeautifulSoup(path.read_text(), "html.parser").find("article")
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").find("article")
     for image in article.find_all("img"):
         image.replace_with(f" {image.get('alt', '')} ")
     for node in article.select("pre, script, style, code, .math, .suspension-explorer-box"):

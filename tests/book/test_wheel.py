@@ -36,7 +36,7 @@ def python(tmp_path_factory):
     site = run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder)
     # The folder's own .pth files are not followed, so the checkout stays out of sight.
     pointer = folder / "env" / site.strip() / "borrowed.pth"
-    pointer.write_text(sysconfig.get_path("purelib") + "\n")
+    pointer.write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
     return python
 
 

@@ -18,7 +18,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from helpers import ROOT
+from helpers import ROOT, Quantity, UnitArray
 from matplotlib import pyplot as plt
 
 import suspension
@@ -36,10 +36,12 @@ from suspension import (
 )
 from suspension.animation import animate_robot
 from suspension.branches import branches
+from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
 from suspension.road import RoughRoad
 from suspension.sweep import peaks, sweep
+from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
 
 matplotlib.use("Agg")
@@ -56,6 +58,8 @@ FIT = springs.fit_spring(DATA)
 T = np.linspace(0, 1, 11)
 W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
+TYRE = Tyre(0.01, 1e5, 3.0)
+FLIGHT = suspension.fly(ROBOT, BUMP, v=5, tfinal=0.1)
 LAW = measured.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
 TWO_LAWS = measured.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
@@ -71,6 +75,7 @@ NOT_A_NUMBER = [
     *(np.ma.masked, np.ma.array(1.0, mask=True)),
     *([], [1.0], [1.0, 2.0], (1.0, 2.0), np.array([1.0]), np.array([1.0, 2.0]), np.eye(2)),
     *(np.datetime64("2026-01-01"), np.timedelta64(1, "s")),
+    *(Quantity(1.0), Quantity(np.ones(2)), [Quantity(1.0)], UnitArray(1.0), UnitArray([1.0])),
     *({}, {1.0}, Thing(), Thing, len, slice(3)),
 ]
 NEGATIVE = [-1, -1.5, -1e-300, np.float32(-2), Fraction(-1, 3), -np.finfo(float).max]
@@ -107,6 +112,8 @@ NO_ROADS = [
     lambda x: (x, x.astype(str)),
     lambda x: (x, np.full(x.shape, None)),
     lambda x: "HH",
+    lambda x: (Quantity(x), x),
+    lambda x: (x, UnitArray(x)),
     lambda x: (np.ma.array(x, mask=True), x),
     len,
 ]
@@ -126,6 +133,7 @@ def not_an_array(good, complex_too=False):
         *(good.astype(str), good.astype(bytes), good.astype(object), good.astype("M8[s]")),
         *(np.full(good.shape, None), pd.Series(["1.5"]), [None], ["1", "2"], [[1], [2, 3]]),
         *(np.ma.masked, np.ma.array(good, mask=True), np.ma.masked_equal(good, good.flat[0])),
+        *(Quantity(good), UnitArray(good), [Quantity(good)], [UnitArray(1.0)] * 4, UnitArray(1.0)),
         *([10**400] * 4, np.zeros(4, dtype=[("x", float)]), (x for x in "1234"), iter([1.0])),
     ]
     return values if complex_too else [*values, 1j, good.astype(complex), good + 1j]
@@ -252,6 +260,47 @@ TABLE = [
             "samples": [*NOT_WHOLE, 1, 10**12],
         },
         NO_DRIVE,
+    ),
+    Row(
+        "Tyre",
+        Tyre,
+        {"mass": 0.01, "stiffness": 1e5, "damping": 3.0},
+        {"mass": NOT_POSITIVE, "stiffness": NOT_POSITIVE, "damping": NOT_NONNEGATIVE},
+    ),
+    Row(
+        "roll",
+        roll,
+        DRIVE | {"tyre": TYRE, "tfinal": 0.01, "samples": 3, "resolution": 0.01, "rtol": 1e-5},
+        {
+            "road": NO_ROADS,
+            "v": [*NOT_POSITIVE, 1e300],
+            "tfinal": [*NOT_POSITIVE, 1e12, 1e300],
+            "samples": [*NOT_WHOLE, 1, 10**12],
+            "resolution": [*but(NOT_POSITIVE, None), TOO_MANY_STEPS],
+            "rtol": [*NOT_POSITIVE, 1],
+        },
+        NO_DRIVE | {"tyre": [*NOT_AN_OBJECT, Tyre, ROBOT, len]},
+    ),
+    Row(
+        "heaviest_wheel",
+        heaviest_wheel,
+        CROSS | {"distance": 1.25},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        NO_CROSSING,
+    ),
+    Row(
+        "energy",
+        energy,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "landings",
+        landings,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
     ),
     Row(
         "flat_ground",
@@ -399,6 +448,27 @@ TABLE = [
         {"stiffness": but(NOT_A_FIT, FIT.slope), **NO_CROSSING},
     ),
     Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 5},
+        {"J": but(NOT_WHOLE, *ZERO)},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [0.01, 0.04]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0.0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1.0, 2.0]), [1.0], [1.0, 2.0, 3.0], 1.0],
+        },
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        {"robot": ROBOT, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
+        {"steps": [[J] for J in [*NOT_WHOLE, *ZERO]]},
+    ),
+    Row(
         "just_lost",
         accuracy.just_lost,
         {"robot": ROBOT, "bump": BUMP, "critical": [7.9457], "n": 2},
@@ -446,7 +516,7 @@ TABLE = [
         RoughRoad,
         {"roughness": 1e-5, "length": 1.0, "shortest": 0.1, "seed": 1},
         {
-            "roughness": NOT_NONNEGATIVE,
+            "roughness": [*NOT_NONNEGATIVE, 1e308],
             "length": [*NOT_POSITIVE, 0.01, 1e5],
             "shortest": [*NOT_POSITIVE, 2, 1e-6],
             "seed": but([*NOT_WHOLE, 10**400], *ZERO),
@@ -469,6 +539,63 @@ TABLE = [
             {"robot": NOT_A_ROBOT, "road": [*NOT_AN_OBJECT, BUMP, len]},
         )
         for function in (frequency.steady_start, frequency.rms)
+    ),
+    Row(
+        "accuracy.errors",
+        accuracy.errors,
+        CROSS | {"dt": 0.01, "scheme": RK4},
+        {"v": NOT_POSITIVE, "dt": NOT_POSITIVE},
+        NO_CROSSING | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 7},
+        {"J": but(NOT_WHOLE, *ZERO)},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "seen_mode",
+        accuracy.seen_mode,
+        {"scheme": RK4, "lam": -1 + 2j, "dts": [0.1, 0.2]},
+        {"dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]]},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [1e-3, 4e-3]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1e-3, 4e-3]), [1.0, 2.0, 3.0], []],
+        },
+    ),
+    Row(
+        "just_lost",
+        accuracy.just_lost,
+        {"robot": ROBOT, "bump": BUMP, "critical": [0.437], "n": 1},
+        {"critical": not_finite([0.437]), "n": [*NOT_WHOLE]},
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
+    ),
+    *(
+        Row(function.__name__, function, CROSS | more, {"v": NOT_POSITIVE})
+        for function, more in (
+            (accuracy.solve_ivp_errors, {"method": "RK45", "tolerances": [1e-3]}),
+            (accuracy.disagreement, {}),
+            (accuracy.event_run, {}),
+            (accuracy.missed_dip, {}),
+        )
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        DRIVE | {"tfinal": 0.1, "steps": [10]},
+        {
+            "v": NOT_A_NUMBER,
+            "tfinal": NOT_POSITIVE,
+            "steps": [[10, bad] for bad in NOT_WHOLE],
+        },
+        NO_DRIVE,
     ),
     Row(
         "spectral_rms",
@@ -846,7 +973,7 @@ def limits(seconds, gigabytes):
     before = signal.signal(signal.SIGPROF, stop)
     memory = resource.getrlimit(resource.RLIMIT_AS)
     if sys.platform == "linux":
-        pages = int(open("/proc/self/statm").read().split()[0])
+        pages = int(open("/proc/self/statm", encoding="utf-8").read().split()[0])
         most = pages * resource.getpagesize() + int(gigabytes * 2**30)
         resource.setrlimit(resource.RLIMIT_AS, (most, memory[1]))
     signal.setitimer(signal.ITIMER_PROF, seconds)

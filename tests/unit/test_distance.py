@@ -114,6 +114,18 @@ def test_a_wheel_that_starts_on_the_bump_is_refused_with_a_place_that_does(drive
     drive(replace(BUMP, centre=told), **way)
 
 
+def test_both_are_told_where_place_and_distance_are_wrong():
+    car = Robot(28000, 25000, c1=1800, c2=1600, m=730, Izz=1230, L1=1.4, L2=1.1)
+    wide = GaussianBump(height=0.1, sigma=0.3, centre=2.0)
+    with pytest.raises(ValueError, match="centre must be at") as refused:
+        margin(car, wide, 10)
+    found = re.search(r"at ([\d.]+) m or more .*, and distance ([\d.]+) m or", str(refused.value))
+    centre, distance = map(float, found.groups())
+    assert np.isfinite(margin(car, replace(wide, centre=centre), 10, distance=distance))
+    with pytest.raises(ValueError, match="distance must be given"):
+        margin(car, replace(wide, centre=centre), 10)
+
+
 @pytest.mark.parametrize("robot", [ROBOT, LOPSIDED], ids=["symmetric", "lopsided"])
 @pytest.mark.parametrize("sigma", [0.01, 0.0288, 0.05])
 def test_the_course_is_long_enough_exactly_if_both_wheels_pass_four_sigmas(robot, sigma):

@@ -1,8 +1,11 @@
 """Contact that switches: against brute force, closed forms, energy, and runs without a switch."""
 
+import math
 import re
+from bisect import bisect_right
 from functools import cache
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -12,7 +15,7 @@ from hypothesis import strategies as st
 from suspension.contact import normal_forces
 from suspension.course import RK4
 from suspension.flight import Event, fly, make_flight_gfunc
-from suspension.road import FlatRoad, GaussianBump, road_input
+from suspension.road import ISO_8608, FlatRoad, GaussianBump, RoadProfile, RoughRoad, road_input
 from suspension.robot import Robot
 from suspension.simulation import simulate
 
@@ -27,6 +30,129 @@ def washboard(x):
     """A road that throws every robot off."""
     x = np.asarray(x, dtype=float)
     return 0.01 * np.sin(60 * x), 0.6 * np.cos(60 * x)
+
+
+class Kinked(NamedTuple):
+    """A road, and its pieces ``piece(x) -> (H, dHdx)`` of floats, each smooth beyond its ends."""
+
+    road: object  # which tells its kinks
+    pieces: list  # one more than kinks
+
+    @property
+    def kinks(self):
+        return list(self.road.kinks)
+
+    def silent(self):
+        """The same road, which does not tell where its kinks are."""
+        return lambda x: self.road(x)
+
+
+def level(height):
+    return lambda x: (height, 0.0)
+
+
+def polygon(x, h):
+    """A road of straight lines through points."""
+
+    def line(x0, h0, slope):
+        return lambda x: (h0 + slope * (x - x0), slope)
+
+    lines = [line(a, p, (q - p) / (b - a)) for (a, b), (p, q) in zip(pairwise(x), pairwise(h))]
+    return Kinked(RoadProfile(x, h, "linear"), [level(h[0]), *lines, level(h[-1])])
+
+
+def half_sine(height=0.0254, length=0.08, start=0.25):
+    q = math.pi / length
+
+    def arch(x):
+        return height * math.sin(q * (x - start)), height * q * math.cos(q * (x - start))
+
+    def road(x):
+        s = (np.asarray(x, float) - start) / length
+        on = (s >= 0) & (s <= 1)
+        slope = height * np.pi / length * np.cos(np.pi * s)
+        return np.where(on, height * np.sin(np.pi * s), 0), np.where(on, slope, 0)
+
+    road.kinks = [start, start + length]
+    return Kinked(road, [level(0.0), arch, level(0.0)])
+
+
+MEASURED = (
+    (np.linspace(0.2, 0.44, 17) + 0.003 * np.sin(5 * np.arange(17))).round(4).tolist(),
+    [0, 1, 0, 3, 7, 6, 11, 16, 17, 19, 18, 14, 13, 7, 4, 1, 0],
+)
+KINKED = {
+    "half-sine": half_sine(),
+    "trapezoid": polygon([0.25, 0.28, 0.34, 0.37], [0, 0.02, 0.02, 0]),
+    "ramp": polygon([0.25, 0.255], [0, 0.012]),
+    "measured": polygon(MEASURED[0], [h / 1000 for h in MEASURED[1]]),
+}
+
+
+def located(robot, road, v, tfinal, wheel, dt=5e-5):
+    """RK4 in short steps that end at every kink, and at every switch by halving the step.
+
+    Written in floats, of the equations as they stand in `fly`'s docstring; the road is never
+    asked across a kink. Returns the switches, (wheel, kind, t, force), and the last state.
+    """
+    k, c, arms = (robot.k1, robot.k2), (robot.c1, robot.c2), (-robot.L1, robot.L2)
+    relaxes = wheel == "relaxes"
+    meets = sorted((kink - arm) / v for kink in road.kinks for arm in arms)
+    ends = [t for t in meets if 0 < t < tfinal] + [tfinal]
+    w, t, pressing, events = robot.equilibrium.tolist(), 0.0, [True, True], []
+    left = [(0.0, 0.0), (0.0, 0.0)]  # of a free wheel: when, and its spring's compression then
+
+    def spring(i, w, t):
+        h, slope = under[i](v * t + arms[i])
+        p = h - w[0] - arms[i] * w[2]
+        return p, k[i] * p + c[i] * (v * slope - w[1] - arms[i] * w[3])
+
+    def rate(w, t):
+        N = [spring(i, w, t)[1] if pressing[i] else 0.0 for i in (0, 1)]
+        turn = (N[0] * arms[0] + N[1] * arms[1]) / robot.Izz
+        return w[1], (N[0] + N[1]) / robot.m - robot.g, w[3], turn
+
+    def after(w, t, h):
+        a = rate(w, t)
+        b = rate([x + h / 2 * y for x, y in zip(w, a)], t + h / 2)
+        d = rate([x + h / 2 * y for x, y in zip(w, b)], t + h / 2)
+        e = rate([x + h * y for x, y in zip(w, d)], t + h)
+        return [x + h / 6 * (p + 2 * q + 2 * r + s) for x, p, q, r, s in zip(w, a, b, d, e)]
+
+    def wrong(i, w, t):
+        p, f = spring(i, w, t)
+        if pressing[i]:
+            return f < 0
+        since, x = left[i]
+        return f > 0 and p >= (x * math.exp(-k[i] / c[i] * (t - since)) if relaxes else 0.0)
+
+    for end in ends:
+        middle = (t + end) / 2
+        under = [road.pieces[bisect_right(road.kinks, v * middle + arm)] for arm in arms]
+        while t < end:
+            step = min(dt, end - t)
+            here = [i for i in (0, 1) if wrong(i, w, t)]  # a kink has just been passed
+            if not here:
+                new = after(w, t, step)
+                if not any(wrong(i, new, t + step) for i in (0, 1)):
+                    w, t = new, (end if step == end - t else t + step)
+                    continue
+                low, high = 0.0, step
+                while high - low > 1e-13:
+                    half = (low + high) / 2
+                    new = after(w, t, half)
+                    if any(wrong(i, new, t + half) for i in (0, 1)):
+                        high = half
+                    else:
+                        low = half
+                w, t = after(w, t, high), t + high
+                here = [i for i in (0, 1) if wrong(i, w, t)]
+            for i in here:
+                p, f = spring(i, w, t)
+                events.append((i + 1, "lift-off" if pressing[i] else "landing", t, f))
+                pressing[i] = not pressing[i]
+                left[i] = (t, p)
+    return events, w
 
 
 def compressions(robot, road, flight):
@@ -124,6 +250,93 @@ def test_brute_force_at_two_microseconds(
         assert abs(event.t - j * dt) < time_error
         # The step after the one that lands: that one shares the shock with the air before it.
         assert abs(event.force - N[wheel - 1, j + 1]) < 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("v", [0.7, 1.2, 3, 5, 10])
+@pytest.mark.parametrize("name", KINKED)
+@pytest.mark.parametrize("wheel", MODELS)
+def test_a_road_with_kinks_flies_as_in_fine_steps(name, v, wheel):
+    """Whether the road tells where its kinks are or not."""
+    road, tfinal = KINKED[name], 0.5 / v + 0.06
+    for robot in (ROBOT, LOPSIDED):
+        expected, w = located(robot, road, v, tfinal, wheel)
+        for told in (road.road, road.silent()):
+            flight = fly(robot, told, v=v, tfinal=tfinal, wheel=wheel, resolution=0.005)
+            assert [e[:2] for e in flight.events] == [e[:2] for e in expected]
+            for event, (_, kind, t, force) in zip(flight.events, expected):
+                assert abs(event.t - t) < 1e-7
+                assert kind == "lift-off" or abs(event.force - force) < 1e-3
+            np.testing.assert_allclose(flight.W[:, -1], w, atol=1e-5)
+
+
+@pytest.mark.parametrize("v, switches", [(3, 7), (5, 6), (10, 4)])
+def test_a_half_sine_bump_makes_nobody_chatter(v, switches):
+    road = half_sine()
+    told, silent = (fly(ROBOT, r, v=v, tfinal=0.9 / v) for r in (road.road, road.silent()))
+    assert len(told.events) == switches
+    for event, other in zip(told.events, silent.events, strict=True):
+        assert event[:2] == other[:2]
+        np.testing.assert_allclose(event[2:], other[2:], atol=1e-9)
+    np.testing.assert_allclose(told.W[:, -1], silent.W[:, -1], atol=1e-9)
+
+
+def test_a_leg_ends_where_a_wheel_meets_a_kink_and_its_force_jumps_there():
+    v, road = 0.3, KINKED["trapezoid"]
+    flight = fly(LOPSIDED, road.road, v=v, tfinal=2)
+    assert flight.events == ()
+    slopes = np.diff([0, 0.02 / 0.03, 0, -0.02 / 0.03, 0])
+    meets = [
+        ((kink - arm) / v, i, c * v * slope)
+        for i, arm, c in [(0, -LOPSIDED.L1, 20), (1, LOPSIDED.L2, 5)]
+        for kink, slope in zip(road.kinks, slopes, strict=True)
+    ]
+    meets.sort()
+    assert [end for _, end, _ in flight.legs[:-1]] == pytest.approx([t for t, *_ in meets])
+    for (end, *_), (t, wheel, jump) in zip(pairwise(leg[1] for leg in flight.legs), meets):
+        before, after = np.flatnonzero(flight.T == end)
+        assert end == pytest.approx(t, abs=1e-14)
+        jumps = flight.N[:, after] - flight.N[:, before]
+        np.testing.assert_allclose(jumps[wheel], jump, atol=1e-9)
+        np.testing.assert_allclose(jumps[1 - wheel], 0, atol=1e-9)
+
+
+def test_a_kink_at_the_start_or_the_end_or_under_both_wheels_is_no_leg():
+    both = polygon([0.0, ROBOT.L1 + ROBOT.L2, 0.3, 0.36], [0, 0.001, 0.001, 0])
+    tfinal = 0.3 - ROBOT.L2
+    flight = fly(ROBOT, both.road, v=1, tfinal=tfinal)
+    ends = [end for _, end, _ in flight.legs]
+    np.testing.assert_allclose(ends, [ROBOT.L1, tfinal], rtol=1e-14)
+    assert [leg[:2] for leg in fly(ROBOT, both.road, v=0, tfinal=0.1).legs] == [(0, 0.1)]
+
+
+@pytest.mark.slow
+@settings(max_examples=20, deadline=None, derandomize=True)
+@given(
+    points=st.lists(st.tuples(st.floats(0.002, 0.1), st.floats(0, 0.02)), min_size=2, max_size=7),
+    v=st.floats(0.3, 20),
+    wheel=st.sampled_from(MODELS),
+    robot=st.sampled_from([ROBOT, LOPSIDED]),
+)
+def test_any_road_of_straight_lines_flies_told_or_not(points, v, wheel, robot):
+    x, h = np.cumsum([0.2, *(x for x, _ in points)]), [0, *(h for _, h in points)]
+    road = RoadProfile(x, h, "linear")
+    told, silent = (
+        fly(robot, r, v=v, tfinal=0.5 / v + 0.05, wheel=wheel, resolution=0.005)
+        for r in (road, lambda x: road(x))
+    )
+    # Where a force only just touches zero the two may differ by a hop of no length.
+    W = [np.array([np.interp(told.T[::50], f.T, w) for w in f.W]) for f in (told, silent)]
+    np.testing.assert_allclose(*W, atol=1e-6)
+    np.testing.assert_allclose(told.airtime, silent.airtime, atol=1e-6)
+
+
+def test_measured_points_of_a_bump_fly_like_the_bump():
+    x = np.linspace(0.1, 0.5, 201)
+    flight = fly(ROBOT, RoadProfile(x, BUMP(x)[0]), v=1.2, tfinal=0.68)
+    bump = run(ROBOT, 1.2, 0.68, "follows")
+    for event, other in zip(flight.events, bump.events, strict=True):
+        assert event[:2] == other[:2] and abs(event.t - other.t) < 3e-5
 
 
 @pytest.mark.slow
@@ -370,6 +583,36 @@ def test_settled():
     assert np.isnan(run(ROBOT, 1.2, 0.68, "follows").settled(ROBOT))
 
 
+def test_settled_refuses_what_is_no_robot_by_name():
+    flight = run(ROBOT, 5, 0.4, "follows")
+    with pytest.raises(TypeError, match="^robot must be a Robot, got None"):
+        flight.settled(None)
+    with pytest.raises(ValueError, match="^fraction must be a finite number >= 0, got -1"):
+        flight.settled(ROBOT, -1)
+
+
+@pytest.mark.parametrize("wheel", MODELS)
+def test_flights_and_heights_of_each_wheel(wheel):
+    flight = run(ROBOT, 1.2, 0.68, wheel)
+    lift_offs = [e.wheel for e in flight.events if e.kind == "lift-off"]
+    assert flight.flights.tolist() == [lift_offs.count(1), lift_offs.count(2)]
+    assert flight.flights.min() > 0
+    np.testing.assert_array_equal(flight.highest, [max(gap) for gap in flight.gaps])
+    falls = fly(ROBOT, FlatRoad(), v=0, tfinal=0.1, w0=[0.01, 0, 0.05, 0], wheel=wheel)
+    np.testing.assert_allclose(falls.highest, [0.01 - 0.05 * 0.107, 0.01 + 0.05 * 0.107])
+    assert falls.flights.tolist() == [1, 1]
+    quiet = run(ROBOT, 0.25, 5, wheel)
+    assert not quiet.flights.any() and not quiet.highest.any()
+
+
+def test_a_frame_has_what_the_flight_has_with_units():
+    flight = run(ROBOT, 5, 0.4, "follows")
+    frame = flight.to_frame()
+    assert all(re.fullmatch(r".+ \((s|m|m/s|rad|rad/s|N)\)", name) for name in frame.columns)
+    values = np.vstack([flight.T, 5 * flight.T, flight.W, flight.N, flight.gaps])
+    np.testing.assert_array_equal(frame.to_numpy().T, values)
+
+
 @pytest.mark.slow
 def test_rk4_has_its_order_from_switch_to_switch_and_not_across():
     v, tfinal = 5, 0.4
@@ -390,6 +633,20 @@ def test_rk4_has_its_order_from_switch_to_switch_and_not_across():
     }
     assert order["located"] == pytest.approx(4, abs=0.2) and order["across"] < 2
     assert located[-1] < 1e-5 * across[-1]
+
+
+def test_rk4_has_its_order_from_kink_to_kink():
+    v, tfinal, road = 5, 0.15, half_sine().road
+    flight, errors = fly(ROBOT, road, v=v, tfinal=tfinal), []
+    assert len(flight.events) == 6 and len(flight.legs) > 8
+    for J in (50, 100, 200):
+        w = ROBOT.equilibrium
+        for start, end, pressing in flight.legs:
+            gfunc = make_flight_gfunc(ROBOT, road, pressing, start, end)
+            dt = (end - start) / np.ceil((end - start) * J / tfinal)
+            w = RK4(gfunc, w, dt, end - start, v)[0][:, -1]
+        errors.append(np.linalg.norm(w - flight.W[:, -1]))
+    assert np.log2(errors[0] / errors[2]) / 2 == pytest.approx(4, abs=0.4)
 
 
 def test_gfunc_gives_the_forces_it_uses():
@@ -488,6 +745,42 @@ def test_a_kerb_is_driven_over():
 def test_bad_input_is_refused_by_name(name, value, allowed):
     with pytest.raises(ValueError, match=rf"^{name} must .*{allowed}"):
         fly(ROBOT, BUMP, **({"v": 1.2, "tfinal": 1} | {name: value}))
+
+
+@pytest.mark.parametrize(
+    "robot, tfinal, remedy",
+    [
+        (
+            ROBOT,
+            3,
+            r"resolution=0\.001: 1\.5e\+04 steps; shorten tfinal, or give resolution=, larger",
+        ),
+        (Robot(8e9, 8e9), 3, "shorten tfinal$"),
+    ],
+)
+def test_too_long_a_run_is_refused_with_the_remedy(robot, tfinal, remedy):
+    with pytest.raises(ValueError, match=remedy):
+        fly(robot, lambda x: BUMP(x), v=10, tfinal=tfinal)
+
+
+def test_a_long_run_over_a_road_that_knows_its_size_is_not_refused():
+    road = RoughRoad(ISO_8608["A"], shortest=1)
+    assert fly(ROBOT, road, v=10, tfinal=1.5).T[-1] == 1.5
+    assert fly(ROBOT, FlatRoad(), v=100, tfinal=30).T[-1] == 30
+
+
+def test_too_many_kinks_are_refused_with_the_remedy():
+    road = RoadProfile(np.linspace(0, 10, 20_001), np.zeros(20_001))
+    with pytest.raises(ValueError, match="at most 10000 kinks .*: 20214 kinks; shorten tfinal, or"):
+        fly(ROBOT, road, v=1, tfinal=20)
+
+
+@pytest.mark.parametrize("kinks", ["here", [[0.1]], [np.nan], lambda: [0.1]])
+def test_kinks_that_are_none_are_refused(kinks):
+    road = half_sine().silent()
+    road.kinks = kinks
+    with pytest.raises(ValueError, match="^road's kinks must"):
+        fly(ROBOT, road, v=1, tfinal=0.1)
 
 
 def test_a_road_that_returns_nan_is_refused():

@@ -1,19 +1,26 @@
 """``import suspension`` gives the names of the contract, and costs little."""
 
+import inspect
 import json
 import subprocess
 import sys
+from functools import cached_property
 from importlib import metadata
+from pathlib import Path
 from pkgutil import iter_modules
 
 import pytest
 from helpers import ROOT
 
 import suspension
+from suspension.flight import Event, Flight
+from suspension.forces import Loss
+from suspension.road import RoadProfile, RoughRoad
+from suspension.simulation import Trajectory
 
 CONTRACT = (
     "Robot GaussianBump FlatRoad Scheme EULER BACKWARD_EULER CRANK_NICOLSON RK4 "
-    "simulate over_bump margin critical_speeds regimes highest_bump fly __version__"
+    "simulate over_bump margin critical_speeds regimes highest_bump fly explore __version__"
 ).split()
 HEAVY = ["pandas", "statsmodels", "matplotlib", "IPython", "ipywidgets", "anywidget"]
 ASK = """
@@ -45,6 +52,65 @@ def test_it_promises_no_more_than_it_has():
     assert set(suspension.__all__) <= set(CONTRACT)
     for name in suspension.__all__:
         assert name in dir(suspension)
+
+
+def test_what_it_does_not_have_it_says():
+    with pytest.raises(AttributeError, match="'suspension' has no attribute 'explorers'"):
+        _ = suspension.explorers
+
+
+def test_explore_is_loaded_when_it_is_first_used():
+    code = (
+        "import sys, suspension; assert 'explore' in dir(suspension);"
+        "before = 'suspension.explorer' in sys.modules;"
+        "print(before, suspension.explore is sys.modules['suspension.explorer'].explore)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "True"]
+
+
+# `explore` is not among them: most of its arguments are whatever the sliders take.
+FUNCTIONS = [name for name in suspension.__all__ if name.islower() and name != "explore"]
+CLASSES = ["Robot", "GaussianBump", "FlatRoad", "Scheme"]
+
+
+def untyped(function):
+    """The parameters of a function without `self`, and what it returns, that say no type."""
+    signature = inspect.signature(function)
+    silent = [p.name for p in signature.parameters.values() if p.annotation is p.empty]
+    if signature.return_annotation is signature.empty:
+        silent.append("return")
+    return [name for name in silent if name != "self"]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_at_the_door_says_its_types(name):
+    assert untyped(getattr(suspension, name)) == []
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        *(getattr(suspension, name) for name in CLASSES),
+        *(Trajectory, Flight, Event, Loss, RoadProfile, RoughRoad),
+    ],
+)
+def test_what_comes_through_the_door_says_its_types(kind):
+    public = {name: value for name, value in vars(kind).items() if not name.startswith("_")}
+    if "__call__" in vars(kind):
+        public["__call__"] = kind.__call__
+    assert public
+    for name, value in public.items():
+        if isinstance(value, cached_property):
+            assert untyped(value.func) == [], name
+        elif isinstance(value, property):
+            assert untyped(value.fget) == [], name
+        elif inspect.isfunction(value):
+            assert untyped(value) == [], name
+
+
+def test_type_checkers_are_told_that_there_are_types():
+    assert (Path(suspension.__file__).parent / "py.typed").read_bytes() == b""
 
 
 def test_no_module_has_the_name_of_something_at_the_door():

@@ -11,7 +11,7 @@ PACKAGE = ROOT / "suspension"
 CORE = (
     "_checks robot road problem schemes forces simulation _readings springs course exact "
     "least_force critical branches contact similarity flight sweep frequency choice travel "
-    "accuracy uncertainty measured"
+    "accuracy uncertainty measured tyre energy"
 ).split()
 ROOMS = ("figures", "report", "explorer")  # may stand on all of the core
 FACADES = {"animation": "figures"}  # a name of the contract, kept in a room
@@ -25,6 +25,8 @@ ONLY_IN = {
     "pandas": {"springs"},
     "statsmodels": {"springs"},
 }
+# What is loaded on demand, inside a function: by whoever asks for a table, or for sliders.
+ON_DEMAND = {"simulation": {"pandas"}, "suspension": {"suspension.explorer.explore"}}
 # What a room may use of another: the report shows figures, the explorer a still one and a caption.
 NEIGHBOURS = {"figures": set(), "report": {"figures"}, "explorer": {"figures", "report"}}
 
@@ -35,16 +37,30 @@ def dotted(path):
     return ".".join(part for part in parts if part != "__init__") or "suspension"
 
 
+def imports(node, within=False):
+    """The imports below a node, and whether each is within a function; none for type checkers."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.Import | ast.ImportFrom):
+            yield child, within
+        elif isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING":
+            yield from imports(ast.Module(child.orelse, []), within)
+        else:
+            yield from imports(child, within or isinstance(child, ast.FunctionDef))
+
+
 def imported(path):
-    """Everything a module imports, at its top or inside a function, by dotted name."""
-    names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    """Everything a module imports, by dotted name, but for what it may import on demand."""
+    at_once, later = set(), set()
+    for node, within in imports(ast.parse(path.read_text(encoding="utf-8"))):
+        names = later if within else at_once
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
+        else:
             assert node.level == 0 and node.names[0].name != "*", "hides what is imported"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return names
+    on_demand = ON_DEMAND.get(dotted(path), set())
+    assert on_demand <= later
+    return at_once | later - on_demand
 
 
 IMPORTS = {dotted(path): imported(path) for path in sorted(PACKAGE.rglob("*.py"))}

@@ -108,6 +108,13 @@ def test_a_spring_that_gives_way_is_refused(beta, words):
 # --- at rest --------------------------------------------------------------------------------------
 
 
+def test_a_robot_that_would_stand_upright_is_no_fault_of_the_road():
+    robot, law = Robot(800, 800, m=50, L1=0.01, L2=0.2), SpringLaw(0.0, 13.2, 0.0, DELTA_MAX)
+    assert np.isfinite(rest(robot, law)).all()
+    with pytest.raises(ValueError, match="^robot and law must leave the springs at rest no furth"):
+        rest(robot, law, small=False)
+
+
 @each_law
 @pytest.mark.parametrize("robot", [ROBOT, UNEQUAL], ids=["equal", "unequal"])
 @pytest.mark.parametrize("small", [True, False], ids=["small", "true"])
