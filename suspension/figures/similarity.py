@@ -126,8 +126,8 @@ def plot_comb(nu, exact, comb, alone, throw, ax=None):
     ax = _chart_axes(axes_or_new(ax), nu, heights)
     ax.plot(nu, throw, color="0.35", lw=1, ls="--", label="throw")
     ax.plot(nu, alone, color="C2", ls="-.", label="no comb: $j = 1$")
-    ax.plot(nu, comb, color="C1", ls=":", lw=2.2, label="comb, by formula")
-    ax.plot(nu, exact, color="C0", label="exact")
+    ax.plot(nu, exact, color="C0", lw=3.2, alpha=0.6, label="exact")
+    ax.plot(nu, comb, color="k", ls=":", lw=1.6, label="comb, by formula")
     ax.legend(loc="upper left")
     return ax
 
