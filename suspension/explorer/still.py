@@ -24,8 +24,8 @@ SPEEDS = 90
 FAR = 4  # times the usual way
 # In a notebook without its kernel there is no widget, and this picture says what to do about it.
 NO_WIDGET = (
-    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + "
-    ".jp-OutputArea-child:has(> .jupyter-widgets:not(:has(*))) { display: none; }</style>"
+    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + .jp-OutputArea-child > "
+    ".jupyter-widgets:not(:has(*)) { display: none; }</style>"
 )
 RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
 
