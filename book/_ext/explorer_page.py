@@ -23,7 +23,9 @@ from suspension.explorer import page_script, page_style
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
 BOX = "suspension-explorer-box"
-FOR_NOTEBOOKS = re.compile(r'<p class="se-run">.*?</p><style>.*?</style>')
+FOR_NOTEBOOKS = re.compile(
+    r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
+)
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 FILES = {"explorer.js": page_script, "explorer.css": page_style}
 
@@ -49,7 +51,7 @@ def add_files(app, page, template, context, doctree):
 
 
 def keep_pages(app, page, source):
-    """Leave out what only a notebook shows of an explorer: its widget, and what to run for it."""
+    """Leave out what is for readers of a notebook: the widget, and what to run for it."""
     if Path(app.env.doc2path(page)).suffix != ".ipynb":
         return
     notebook = json.loads(source[0])

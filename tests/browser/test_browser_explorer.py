@@ -1179,7 +1179,10 @@ def test_phrases_and_links_lead_somewhere_in_jupyterlab(browser, lab):
     (folder / "_build" / "html" / "book" / "model.html").unlink()  # not built: its text, rendered
     tab.bring_to_front()
     tab.get_by_role("link", name="the package").click()
-    tab.locator(".jp-MarkdownViewer h1").first.wait_for()
+    heading = tab.locator(".jp-MarkdownViewer").get_by_role("heading", name="The same, as matrices")
+    heading.wait_for()
+    tab.wait_for_timeout(500)
+    assert 0 < heading.bounding_box()["y"] < 400
     tab.close()
 
 
