@@ -12,11 +12,12 @@ What goes beyond:
 - `least_force`, `critical`: its least forces, and the speeds at which they vanish
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `flight`: what happens after it has
-- `sweep`: very many runs at once
+- `spring_law`: the spring with its preload, its curvature and an end stop
+- `sweep`, `extremes`: very many runs at once, on a ground that only pushes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
-- `measured`: the spring with its preload, its curvature and an end stop
+- `measured`: which verdicts such a spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them.

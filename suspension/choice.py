@@ -13,9 +13,10 @@ from scipy.optimize import minimize
 
 from suspension import _checks
 from suspension.least_force import margin
+from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
-from suspension.sweep import peaks
+from suspension.sweep import drive
 
 __all__ = [
     "Choice",
@@ -28,20 +29,22 @@ __all__ = [
     "fitted_with",
 ]
 
-STEPS = 1000  # of a run, in maps
 MAX_MARGINS = 10**4  # exact ones: some ten seconds
 MAX_RUNS = 10**5  # all at once: as long
+MAX_CANDIDATES = 5000  # for the best compromises: a second or two, if none beats another
 STARTS = 2  # points of the grid from which the search begins
 EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
 
 
 class Demands(NamedTuple):
-    """The worst over several speeds, for each suspension of a map, shape (m, n): margin, N,
-    largest acceleration, m/s^2, and largest compression, m."""
+    """The worst over several speeds, for each suspension of a map, shape (m, n): margin, N, never
+    negative, largest acceleration, m/s^2, largest compression, m, and longest airtime of a wheel as
+    a part of the time."""
 
     margin: np.ndarray
     acceleration: np.ndarray
     compression: np.ndarray
+    air: np.ndarray
 
 
 class Choice(NamedTuple):
@@ -77,6 +80,7 @@ class Exclusion(NamedTuple):
 
 def fitted_with(robot, k, c):
     """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles."""
+    _checks.instance("robot", robot, Robot)
     return replace(robot, k1=k, k2=k, c1=c, c2=c)
 
 
@@ -97,23 +101,26 @@ def demands(robot, road, v, k, c):
     Returns
     -------
     Demands
-        From runs of 1000 steps each, all at once (`suspension.sweep.peaks`): sampled, not exact.
+        From runs on a ground that only pushes, all at once (`suspension.sweep.drive`).
 
     Raises
     ------
     ValueError
-        If an argument is out of its range, or all together are more than 10^5 runs.
+        If an argument is out of its range, all together are more than 10^5 runs, or `drive` refuses
+        the runs.
     """
     _checks.instance("robot", robot, Robot)
     v, k, c = _grid(v, k, c, MAX_RUNS)
     robots = np.array(
         [[fitted_with(robot, stiffness, damping) for stiffness in k] for damping in c]
     )
-    found = peaks(robots[:, :, None], road, v, steps=STEPS)
+    found = drive(robots[:, :, None], road, v)
+    way = found.airtime.max(axis=0) * v / DISTANCE
     return Demands(
-        found.force.min(axis=(-2, -1)),
+        found.margin.min(axis=-1),
         found.acceleration.max(axis=-1),
-        found.compression.max(axis=(-2, -1)),
+        found.compression.max(axis=-1),
+        way.max(axis=-1),
     )
 
 
@@ -123,7 +130,7 @@ def efficient(costs):
     Parameters
     ----------
     costs : array_like, shape (n, criteria)
-        Less is better.
+        Less is better; n is at most 5000.
 
     Returns
     -------
@@ -135,10 +142,17 @@ def efficient(costs):
     array([ True,  True,  True, False])
     """
     costs = _checks.array("costs", costs, (None, None))
-    best = np.ones(len(costs), dtype=bool)
-    for i, cost in enumerate(costs):
-        as_good = (costs <= cost).all(axis=1)
-        best[i] = not (as_good & (costs < cost).any(axis=1)).any()
+    if len(costs) > MAX_CANDIDATES:
+        raise ValueError(f"costs must be of at most {MAX_CANDIDATES} candidates, got {len(costs)}")
+    best, front, size = np.zeros(len(costs), dtype=bool), np.empty_like(costs), 0
+    # In this order no later candidate beats an earlier one, and who is beaten at all is beaten by
+    # one of the front.
+    for i in np.lexsort(costs.T[::-1]) if costs.size else range(len(costs)):
+        so_far, cost = front[:size], costs[i]
+        best[i] = not ((so_far <= cost).all(axis=1) & (so_far < cost).any(axis=1)).any()
+        if best[i]:
+            front[size] = cost
+            size += 1
     return best
 
 

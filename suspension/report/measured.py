@@ -7,7 +7,7 @@ The first law is the line.
 
 import numpy as np
 
-from suspension.measured import REACH, linearised, rest
+from suspension.measured import REACH
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -22,6 +22,7 @@ from suspension.report.words import (
     speed_list,
 )
 from suspension.schemes import RK4
+from suspension.spring_law import linearised, rest
 
 __all__ = [
     "angle_sentence",
