@@ -2,6 +2,7 @@
 
 The model and its time loop, which the ten questions ask for:
 
+- `problem`: the facts of the problem set
 - `robot`, `road`, `schemes`: the matrices, the ground, one-step methods as Butcher tableaux
 - `forces`, `simulation`: what the wheels press with, and the motion step by step
 - `springs`, `course`: the regression, and the problem set's own functions by its names
@@ -28,6 +29,7 @@ and nothing above imports them.
 Loss(wheel=2, t=0.177)
 """
 
+from suspension.contact import regimes
 from suspension.critical import critical_speeds
 from suspension.exact import over_bump
 from suspension.flight import fly
@@ -52,5 +54,6 @@ __all__ = [
     "fly",
     "margin",
     "over_bump",
+    "regimes",
     "simulate",
 ]

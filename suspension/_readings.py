@@ -14,13 +14,20 @@ from typing import NamedTuple
 import numpy as np
 from scipy import io
 
+from suspension.problem import DELTA_MAX
+
 __all__ = ["COLUMNS", "Readings", "read"]
 
 COLUMNS = ("delta_over_delta_max", "force")
 DELIMITERS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 ROUNDOFF = 1e-9  # how far a displacement may lie outside [0, 1]
-UNITS = {"per cent": 100, "millimetres": 16.5, "centimetres": 1.65, "metres": 0.0165}
+UNITS = {  # what a displacement of delta_max reads in units other than delta_max
+    "per cent": 100,
+    "millimetres": 1000 * DELTA_MAX,
+    "centimetres": 100 * DELTA_MAX,
+    "metres": DELTA_MAX,
+}
 LARGEST_FORCE = 200.0  # N, fourteen times the robot's weight
 
 _SHORT = Repr()

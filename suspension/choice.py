@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from suspension import _checks
-from suspension.least_force import margin
+from suspension.least_force import distance_over, margin
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
@@ -37,14 +37,32 @@ EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reac
 
 
 class Demands(NamedTuple):
-    """The worst over several speeds, for each suspension of a map, shape (m, n): margin, N, never
-    negative, largest acceleration, m/s^2, largest compression, m, and longest airtime of a wheel as
-    a part of the time."""
+    """The worst over several speeds, for each suspension of a map, on a ground that only pushes.
+
+    Attributes
+    ----------
+    margin : ndarray, shape (m, n)
+        Least margin, N; 0 where contact is lost.
+    acceleration, compression : ndarray, shape (m, n)
+        Largest acceleration of the body, m/s^2, and compression of a spring, m.
+    air : ndarray, shape (m, n)
+        The part of the way in which a wheel is in the air, at most.
+    """
 
     margin: np.ndarray
     acceleration: np.ndarray
     compression: np.ndarray
     air: np.ndarray
+
+    @property
+    def costs(self):
+        """What should be small, shape (3, m, n): want of contact, acceleration, compression.
+
+        Who keeps contact is the better the larger the margin; who loses it is worse than all of
+        these, and the worse the more of the way a wheel is in the air.
+        """
+        contact = np.where(self.margin > 0, -self.margin, self.air)
+        return np.array([contact, self.acceleration, self.compression])
 
 
 class Choice(NamedTuple):
@@ -84,7 +102,7 @@ def fitted_with(robot, k, c):
     return replace(robot, k1=k, k2=k, c1=c, c2=c)
 
 
-def demands(robot, road, v, k, c):
+def demands(robot, road, v, k, c, *, distance=None):
     """What suspensions give and ask for, the worst over several speeds: maps for a choice.
 
     Parameters
@@ -97,6 +115,8 @@ def demands(robot, road, v, k, c):
         m/s, > 0.
     k, c : array_like, shapes (n,) and (m,)
         Stiffness, N/m, and damping, N s/m, of both axles, > 0 and in order.
+    distance : float, optional
+        How far each run goes, m, as in `suspension.sweep.drive`.
 
     Returns
     -------
@@ -114,13 +134,13 @@ def demands(robot, road, v, k, c):
     robots = np.array(
         [[fitted_with(robot, stiffness, damping) for stiffness in k] for damping in c]
     )
-    found = drive(robots[:, :, None], road, v)
-    way = found.airtime.max(axis=0) * v / DISTANCE
+    found = drive(robots[:, :, None], road, v, distance=distance)
+    part = found.airtime.max(axis=0) * v / (DISTANCE if distance is None else distance)
     return Demands(
         found.margin.min(axis=-1),
         found.acceleration.max(axis=-1),
         found.compression.max(axis=-1),
-        way.max(axis=-1),
+        part.max(axis=-1),
     )
 
 
@@ -156,7 +176,7 @@ def efficient(costs):
     return best
 
 
-def cheapest(robot, bump, v, k, c, reserve=0.0):
+def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     """The least change of stiffness and damping that keeps contact at all of several speeds.
 
     The suspensions of the grid are tried by exact margins, those near the robot's first. From the
@@ -174,6 +194,9 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
         Stiffness, N/m, and damping, N s/m, > 0, of the grid, each in order.
     reserve : float
         What the margin must be at every speed, N.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
@@ -196,17 +219,21 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     start = _own(robot, bump)
     v, k, c = _grid(v, k, c)
     reserve = _checks.number("reserve", reserve)
+    distance = distance_over(robot, bump, distance)
+
+    def margin_of(fitted, speed):
+        return margin(fitted, bump, speed, distance=distance)
 
     # The speed with the least margin comes first: most suspensions fail there.
-    v = sorted(v, key=lambda speed: margin(robot, bump, speed))
+    v = sorted(v, key=lambda speed: margin_of(robot, speed))
 
     def spare(x):
         changed = fitted_with(robot, *np.exp(x))
-        return np.array([margin(changed, bump, speed) for speed in v]) - reserve
+        return np.array([margin_of(changed, speed) for speed in v]) - reserve
 
     def keeps(x):
         changed = fitted_with(robot, *np.exp(x))
-        return all(margin(changed, bump, speed) >= reserve for speed in v)
+        return all(margin_of(changed, speed) >= reserve for speed in v)
 
     if keeps(start):
         return Choice(robot, 0.0, float(spare(start).min() + reserve))
@@ -233,7 +260,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
 
 
-def exclusion(robot, bump, v, k, c):
+def exclusion(robot, bump, v, k, c, *, distance=None):
     """Is contact lost at one of several speeds, at least, whatever the suspension?
 
     The worst margin is a continuous function of ln k and ln c. Between points of a grid it can
@@ -241,7 +268,7 @@ def exclusion(robot, bump, v, k, c):
 
     Parameters
     ----------
-    robot, bump, v, k, c
+    robot, bump, v, k, c, distance
         As in `cheapest`; the grid has two points and more each way.
 
     Returns
@@ -253,9 +280,13 @@ def exclusion(robot, bump, v, k, c):
     v, k, c = _grid(v, k, c)
     if min(len(k), len(c)) < 2:
         raise ValueError(f"k and c must have two values and more, got {len(k)} and {len(c)}")
-    worst = np.array(
-        [[min(margin(fitted_with(robot, a, b), bump, u) for u in v) for a in k] for b in c]
-    )
+    distance = distance_over(robot, bump, distance)
+
+    def worst_margin(k, c):
+        fitted = fitted_with(robot, k, c)
+        return min(margin(fitted, bump, speed, distance=distance) for speed in v)
+
+    worst = np.array([[worst_margin(a, b) for a in k] for b in c])
     x, y = np.log(k), np.log(c)
     # At each point the steepest chords towards its neighbours, in both directions.
     across = np.pad(np.abs(np.diff(worst, axis=1) / np.diff(x)), ((0, 0), (1, 1)))

@@ -18,6 +18,7 @@ from statsmodels.regression.linear_model import OLSResults, RegressionResultsWra
 
 from suspension import _checks
 from suspension._readings import COLUMNS, read
+from suspension.problem import DELTA_MAX
 
 __all__ = [
     "TRUE_STIFFNESS",
@@ -322,7 +323,7 @@ class SpringFit:
         return float(stats.t.ppf(1 - (1 - level) / (2 * compared), free))
 
 
-def fit_spring(data, delta_max=0.0165):
+def fit_spring(data, delta_max=DELTA_MAX):
     """Least squares for the force-displacement model, Eq. 9.
 
     Any displacements and any slope can be fitted; it is `load_spring_data` that insists on a

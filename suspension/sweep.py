@@ -5,12 +5,14 @@ that pulls as well. `sweep` keeps the least forces of the linear robot with any 
 step those of `suspension.simulation.simulate`, in half the time of a `drive`.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from suspension import _checks
 from suspension.extremes import Extremes
+from suspension.least_force import distance_over
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump, profile, under_wheels
 from suspension.robot import Robot
@@ -31,7 +33,6 @@ FEATURE = 0.03  # m, the smallest feature of a road that has no sigma
 SWING = 24  # steps for each swing of the stiffest spring, or stop
 DECAY = 1.0  # steps for each time constant of the strongest damper
 HUGE = 1e30
-REACH = 4  # sigma of a bump that both wheels must pass
 
 
 class Drive(NamedTuple):
@@ -99,7 +100,9 @@ def drive(robots, road, v, *, law=None, ground="pushes", geometry="small", dista
         Whether the pitch is taken for small, as in Eqs. 1 to 6; if not, heights, places, lever
         arms and speeds of the wheels are those of a rigid body.
     distance : float, optional
-        How far the centre of mass goes, m, > 0; 1.25 m if not given.
+        How far the centre of mass goes, m, > 0. If not given, 1.25 m: all of a Gaussian bump must
+        lie within (`suspension.least_force.distance_over`); of other roads it is not known where
+        they end.
     fine : float
         How many times the steps of every run are multiplied, to see the error, > 0.
 
@@ -110,10 +113,10 @@ def drive(robots, road, v, *, law=None, ground="pushes", geometry="small", dista
     Raises
     ------
     ValueError
-        If an argument is out of its range; if they cannot be broadcast; if `distance` is not given
-        and a Gaussian bump does not lie within 1.25 m for both wheels, 4 sigma to each side (of
-        other roads it is not known where they end); or if the runs would take more than 10^8
-        steps together, where each step costs as much as a thousand cases before the first.
+        If an argument is out of its range; if they cannot be broadcast; if a wheel starts on a
+        Gaussian bump, or does not pass all of it within 1.25 m and `distance` is not given; or if
+        the runs would take more than 10^8 steps together, where a step of any number of runs counts
+        a thousand more.
 
     Notes
     -----
@@ -181,22 +184,12 @@ class _Cases(NamedTuple):
 
 def _passed(robots, road, distance):
     """How far the runs go, m: `distance`, or that of the problem if the whole bump is in it."""
-    if distance is not None:
-        return _checks.positive("distance", distance)
     if isinstance(road, GaussianBump) and robots.size:
-        ahead = max(robot.L2 for robot in robots.flat)
-        needed = road.centre + REACH * road.sigma + max(robot.L1 for robot in robots.flat)
-        if road.centre - REACH * road.sigma < ahead:
-            raise ValueError(
-                f"distance must be given if the front wheel starts on the bump, got L2 = {ahead:g} "
-                f"and {road}: move its centre beyond {ahead + REACH * road.sigma:.3g} m"
-            )
-        if needed > DISTANCE:
-            raise ValueError(
-                f"distance must be given if both wheels do not pass the whole bump within "
-                f"{DISTANCE:g} m, got {road}: {needed:.3g} m would do"
-            )
-    return DISTANCE
+        longest = {
+            name: max(getattr(robot, name) for robot in robots.flat) for name in ("L1", "L2")
+        }
+        return distance_over(replace(robots.flat[0], **longest), road, distance)
+    return DISTANCE if distance is None else _checks.positive("distance", distance)
 
 
 def _side_by_side(robots, v, law):
@@ -405,7 +398,7 @@ def _run(cases, steps, way):
     return extremes.result()
 
 
-def sweep(robots, road, v, *, steps, distance=1.25, scheme=RK4):
+def sweep(robots, road, v, *, steps, distance=DISTANCE, scheme=RK4):
     """The smallest sampled normal force of each wheel, for every robot and every speed.
 
     Each case is the run ``simulate(robot, road, v=v, dt=distance / (v * steps), tfinal=distance /

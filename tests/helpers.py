@@ -49,6 +49,13 @@ def near(actual, expected, relative):
     np.testing.assert_allclose(actual, expected, rtol=0, atol=allowed)
 
 
+def shaded(ax):
+    """The ranges of x that are shaded, not hatched, over the whole height: shape (n, 2)."""
+    to_data = ax.transData.inverted()
+    patches = [patch for patch in ax.patches if not patch.get_hatch()]
+    return [patch.get_extents().transformed(to_data).intervalx.tolist() for patch in patches]
+
+
 def largest_difference(page, run):
     """Between all of a page's [W, N], shape (6, J+1), and those of a Trajectory.
 

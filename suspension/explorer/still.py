@@ -7,7 +7,7 @@ from urllib.parse import quote
 import matplotlib.pyplot as plt
 import numpy as np
 
-from suspension.contact import margin
+from suspension.contact import margin, regimes_between
 from suspension.critical import zeros
 from suspension.explorer.settings import ASKED, COURSE, VMAX, VMIN
 from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
@@ -99,9 +99,18 @@ def _draw_robot(explorer, run, ax):
 def _draw_speeds(explorer, ax):
     robot, road = explorer.robot, explorer.road
     v = np.geomspace(VMIN, VMAX, SPEEDS)
-    least = np.array([[least.force for least in minima(robot, road, speed)] for speed in v]).T
-    critical = np.exp(zeros(lambda x: margin(robot, road, np.exp(x)), np.log(v)))
-    plot_margin(v, least, critical, ASKED, ax=ax)
+    # Until the end of the way, wherever sliders put the bump on it.
+    way = explorer.distance
+    least = np.transpose(
+        [[dip.force for dip in minima(robot, road, speed, way / speed)] for speed in v]
+    )
+
+    def margin_at(speed):
+        return margin(robot, road, speed, way / speed)
+
+    critical = np.exp(zeros(lambda x: margin_at(np.exp(x)), np.log(v)))
+    inside = critical[(v[0] < critical) & (critical < v[-1])]
+    plot_margin(v, least, regimes_between(margin_at, [v[0], *inside, v[-1]]), ASKED, ax=ax)
     ax.legend().remove()
 
 

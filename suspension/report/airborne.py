@@ -3,7 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.least_force import COURSE
+from suspension.problem import DISTANCE
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -65,8 +65,8 @@ def flight_table(flights, robot):
     ways = join(f"{flight.v * duration:.3g}" for flight in flights)
     note = (
         f"Counted over {quantity(duration, 's')}, a way of {ways}{SPACE}m; the asked runs end at "
-        f"{COURSE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those at "
-        "rest."
+        f"{DISTANCE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those "
+        "at rest."
     )
     return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 
@@ -335,12 +335,26 @@ def _story(flight):
 
 def film_caption(v, told):
     """Caption of the film at `v` in m/s; `told` as `suspension.travel.moments` returns it."""
-    words = join(f"{what} ({fixed(t, 3)}{SPACE}s)" for t, what in told.items())
-    flies = any("lifts off" in what for what in told.values())
+    words = join(f"{_what(moment)} ({fixed(moment.t, 3)}{SPACE}s)" for moment in told)
+    flies = any(moment.kind == "lift-off" for moment in told)
     hangs = " A wheel in the air hangs from its extended spring." if flies else ""
     text = f"The robot at {v:g}{SPACE}m/s in true proportions: {words}.{hangs}"
     alt = f"{count(len(told), 'frame').capitalize()} of the robot at {v:g}{SPACE}m/s: {words}."
     return Caption(text, alt)
+
+
+def _what(moment):
+    """What happens at a moment of a drive, in words."""
+    if moment.wheel is None:
+        return {"top": "the body is over it", "past": "both have passed"}[moment.kind]
+    return {
+        "foot": "the {} wheel reaches the bump",
+        "top": "the {} wheel is on its top",
+        "lift-off": "the {} wheel lifts off",
+        "apex": "it is at the top of this flight",
+        "landing": "it lands",
+        "highest": "the {} wheel is at its highest",
+    }[moment.kind].format(WHEEL[moment.wheel])
 
 
 def order_caption(v, end, orders):

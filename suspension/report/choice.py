@@ -5,6 +5,7 @@ A suspension is a robot, of which stiffness and damping, alike on both axles, ar
 
 import numpy as np
 
+from suspension.contact import Regimes
 from suspension.report.rows import mode_name, table
 from suspension.report.words import (
     SPACE,
@@ -332,8 +333,8 @@ def between(critical, kept, low, high):
     """
     lines = []
     for name, speeds in critical.items():
-        where = ranges([low, *speeds, high], [not keeps for keeps in kept[name]])
-        lines.append(f"- **{name}**: contact is {where}.")
+        found = Regimes([low, *speeds, high], [not keeps for keeps in kept[name]])
+        lines.append(f"- **{name}**: contact is {ranges(found)}.")
     return "\n".join(lines)
 
 

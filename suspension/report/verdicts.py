@@ -3,6 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
+from suspension.problem import DISTANCE
 from suspension.report.rows import table, verdict
 from suspension.report.words import (
     SPACE,
@@ -128,7 +129,7 @@ def _at_rest(robot, delta_max):
 
 
 def later(runs, longer):
-    """Whether the end of the runs, at X = 1.25 m, decided a verdict.
+    """Whether the end of the runs decided a verdict.
 
     Parameters
     ----------
@@ -136,17 +137,18 @@ def later(runs, longer):
         The same runs, and each continued further.
     """
     pairs = list(zip(runs, longer, strict=True))
+    end = f"$X$ = {DISTANCE:g} m"
     extra = quantity(min(more.T[-1] - run.T[-1] for run, more in pairs), "s", 2)
     kept = [(run, more) for run, more in pairs if run.loss is None]
     turned = [run.v for run, more in kept if more.loss]
     if not kept:
         return (
             "Contact is lost on the way at every speed, so nothing that comes after "
-            "$X$ = 1.25 m can change a verdict."
+            f"{end} can change a verdict."
         )
     if turned:
         return (
-            f"**The end of the run decides:** continued for another {extra} beyond $X$ = 1.25 m, "
+            f"**The end of the run decides:** continued for another {extra} beyond {end}, "
             f"contact is lost at {speed_list(turned)} as well."
         )
     deeper = [run.v for run, more in kept if more.N.min() < run.N.min() - 0.005]
@@ -155,7 +157,7 @@ def later(runs, longer):
         if deeper
         else ", and no least force becomes smaller"
     )
-    return f"After $X$ = 1.25 m no verdict changes: the runs were continued for {extra}{margins}."
+    return f"After {end} no verdict changes: the runs were continued for {extra}{margins}."
 
 
 def forces_caption(question, runs):

@@ -22,12 +22,25 @@ from helpers import ROOT
 from matplotlib import pyplot as plt
 
 import suspension
-from suspension import choice, contact, course, exact, frequency, measured, spring_law, springs
+from suspension import (
+    accuracy,
+    choice,
+    contact,
+    course,
+    exact,
+    frequency,
+    measured,
+    spring_law,
+    springs,
+    travel,
+)
 from suspension.animation import animate_robot
+from suspension.branches import branches
 from suspension.explorer import explore
+from suspension.least_force import distance_over
 from suspension.road import RoughRoad
 from suspension.sweep import drive, sweep
-from suspension.travel import travel
+from suspension.uncertainty import loss_probability
 
 matplotlib.use("Agg")
 
@@ -64,6 +77,9 @@ NEGATIVE = [-1, -1.5, -1e-300, np.float32(-2), Fraction(-1, 3), -np.finfo(float)
 ZERO = [0, 0.0, -0.0, False]
 NOT_NONNEGATIVE = NOT_A_NUMBER + NEGATIVE
 NOT_POSITIVE = NOT_NONNEGATIVE + ZERO
+OUTSIDE = [np.nan, np.inf, -np.inf, [np.nan, 1.0], [1.0, np.inf]]
+NOT_A_DISTANCE = [*(value for value in NOT_POSITIVE if value is not None), 1e9, 1e300]
+UNDER_A_WHEEL = [suspension.GaussianBump(centre=x) for x in (0.107, -0.107, 0.0, 0.2, -0.2)]
 NOT_WHOLE = [*NOT_POSITIVE, 0.5, 1.5, 1 + 1e-9, Fraction(3, 2)]
 NOT_AN_OBJECT = [
     *(None, 3, 2.5, True, np.nan, 1j, Decimal(1), "robot", b"robot"),
@@ -286,11 +302,128 @@ TABLE = [
         )
         for function in (suspension.margin, contact.minima, contact.exact_loss)
     ),
+    *(
+        Row(
+            f"{function.__name__} over a distance",
+            function,
+            CROSS | {"distance": 1.0},
+            {"distance": NOT_A_DISTANCE},
+            {"bump": NOT_A_BUMP},
+        )
+        for function in (
+            suspension.margin,
+            contact.minima,
+            contact.exact_loss,
+            travel.travel,
+            travel.balance,
+            accuracy.disagreement,
+        )
+    ),
     Row(
-        "critical_speeds",
-        suspension.critical_speeds,
-        {"robot": ROBOT, "bump": BUMP, "vmin": 7.0, "vmax": 9.0},
-        {"vmin": [*NOT_POSITIVE, 9, 10, 1e-300], "vmax": [*NOT_POSITIVE, 7, 6, 1e300]},
+        "distance_over",
+        distance_over,
+        {"robot": ROBOT, "bump": BUMP, "distance": 1.0},
+        {"distance": but(NOT_POSITIVE, None), "bump": UNDER_A_WHEEL},
+        NO_CROSSING,
+    ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "bump": BUMP, "vmin": 7.0, "vmax": 9.0, "distance": 1.0},
+            {
+                "vmin": [*NOT_POSITIVE, 9, 10, 1e-300],
+                "vmax": [*NOT_POSITIVE, 7, 6, 1e300],
+                "distance": NOT_A_DISTANCE,
+                "bump": UNDER_A_WHEEL,
+            },
+            NO_CROSSING,
+        )
+        for function in (suspension.critical_speeds, suspension.regimes)
+    ),
+    Row(
+        "Regimes",
+        contact.Regimes,
+        {"edges": [1.0, 2.0, 3.0], "lost": [True, False]},
+        {
+            "edges": [
+                *not_finite([1.0, 2.0, 3.0]),
+                [1],
+                [],
+                [0, 1, 2],
+                [1, 3, 2],
+                [1, 1, 2],
+            ],
+            "lost": [*not_finite([1.0, 0.0]), [True], [True] * 3, [2, 0], [0.5, 1]],
+        },
+    ),
+    Row(
+        "Regimes()",
+        contact.Regimes([1.0, 2.0, 3.0], [True, False]),
+        {"v": [1.0, 3.0]},
+        {"v": [*not_an_array(1.0), *OUTSIDE, 0.5, [1, 3.1], [[1], [4]]]},
+    ),
+    Row(
+        "regimes_between",
+        contact.regimes_between,
+        {"margin_at": lambda v: 2.5 - v, "edges": [1.0, 2.5, 3.0]},
+        {"edges": [*not_finite([1.0, 2.0]), [1], [], [0, 1], [2, 1], [1, 1]]},
+        {"margin_at": NOT_AN_OBJECT},
+    ),
+    Row(
+        "is_lost",
+        contact.is_lost,
+        {"margin": [1.0, -2.0]},
+        {"margin": [*not_an_array(1.0), *OUTSIDE]},
+    ),
+    Row(
+        "branches",
+        branches,
+        {"robot": ROBOT, "bump": BUMP, "vmin": 7.5, "vmax": 8.0, "kmin": 780.0, "kmax": 800.0}
+        | {"check": 790.0, "distance": 1.0},
+        {
+            "vmin": [*NOT_POSITIVE, 8, 10],
+            "vmax": [*NOT_POSITIVE, 7.5, 6],
+            "kmin": [*NOT_POSITIVE, 800, 900],
+            "kmax": [*NOT_POSITIVE, 780, 1],
+            "check": [*but(NOT_POSITIVE, None), 779, 801],
+            "distance": NOT_A_DISTANCE,
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "loss_probability",
+        loss_probability,
+        {"stiffness": FIT, **CROSS, "distance": 1.0},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        {"stiffness": but(NOT_A_FIT, FIT.slope), **NO_CROSSING},
+    ),
+    Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 5},
+        {"J": but(NOT_WHOLE, *ZERO)},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [0.01, 0.04]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0.0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1.0, 2.0]), [1.0], [1.0, 2.0, 3.0], 1.0],
+        },
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        {"robot": ROBOT, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
+        {"steps": [[J] for J in [*NOT_WHOLE, *ZERO]]},
+    ),
+    Row(
+        "just_lost",
+        accuracy.just_lost,
+        {"robot": ROBOT, "bump": BUMP, "critical": [7.9457], "n": 2},
+        {"n": NOT_WHOLE},
         NO_CROSSING,
     ),
     Row(
@@ -424,7 +557,7 @@ TABLE = [
     ),
     Row(
         "travel",
-        travel,
+        travel.travel,
         CROSS | {"samples": 11},
         {"v": NOT_POSITIVE, "samples": [*NOT_WHOLE, 10**12]},
         NO_CROSSING,

@@ -6,10 +6,11 @@ from itertools import pairwise
 import matplotlib
 import numpy as np
 import pytest
-from helpers import ROOT, near
+from helpers import ROOT, near, shaded
 from matplotlib import pyplot as plt
 
 import suspension.figures
+from suspension.contact import Regimes
 from suspension.figures import (
     film,
     plot_all_forces,
@@ -53,6 +54,7 @@ from suspension.robot import Robot
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
 from suspension.simulation import simulate
 from suspension.springs import fit_spring, load_spring_data
+from suspension.travel import Overtravel
 
 matplotlib.use("Agg")
 pytestmark = pytest.mark.filterwarnings("error")
@@ -67,6 +69,7 @@ LINEAR = simulate(ROBOT, BUMP, v=5, dt=0.0001, tfinal=0.25)
 V, K = np.geomspace(0.1, 30, 60), np.linspace(300, 1500, 20)
 FORCES = np.array([7 - 10 * np.sin(np.log(V)), 6 + np.cos(np.log(V))])
 CRITICAL = [0.5, 8.0]
+REGIMES = Regimes([V[0], *CRITICAL, V[-1]], [False, True, False])
 DTS = np.geomspace(1e-3, 0.1, 30)
 SEEN = {"RK4": np.full(30, -2 + 33j), "Euler": np.linspace(-1, 1, 30) + 30j}
 ERRORS = {"Euler": DTS, "RK4": DTS**4}
@@ -90,7 +93,7 @@ ON_ONE = {
     "plot_forces": lambda ax: plot_forces(LOST, ax),
     "plot_errors": lambda ax: plot_errors(DTS, ERRORS, ax),
     "plot_heave": lambda ax: plot_heave(V, HEAVE, ax),
-    "plot_margin": lambda ax: plot_margin(V, FORCES, CRITICAL, asked=[1.2], ax=ax),
+    "plot_margin": lambda ax: plot_margin(V, FORCES, REGIMES, asked=[1.2], ax=ax),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
@@ -217,7 +220,7 @@ def test_two_wheels_differ_by_more_than_their_colour():
     _, axes = plt.subplots(2)
     for ax in (
         plot_forces(LOST),
-        plot_margin(V, FORCES, CRITICAL),
+        plot_margin(V, FORCES, REGIMES),
         *plot_flight(FLIGHT, LINEAR, axes),
     ):
         styles = {line.get_linestyle() for line in ax.lines if len(line.get_xdata()) > 10}
@@ -395,28 +398,28 @@ def test_a_missed_dip_is_in_the_close_up_between_two_steps():
 
 @pytest.mark.parametrize("critical", [[], [0.5], [0.5, 0.51, 8.0], [0.11, 29.0]])
 def test_a_margin_has_a_word_or_a_shade_for_every_range(critical):
-    N = np.array([np.sign(V - 0.5)] * 2) if critical == [0.5] else FORCES
-    ax = plot_margin(V, N, critical, asked=[1.2])
+    lost = [i % 2 for i in range(len(critical) + 1)]
+    ax = plot_margin(V, FORCES, Regimes([V[0], *critical, V[-1]], lost), asked=[1.2])
     words = [text.get_text() for text in ax.texts]
     assert {"lost", "kept"} & set(words)
     assert all(f"{speed:.3g}" in words for speed in critical)
-    assert ("critical speeds" in lines(ax)) == bool(critical)
+    assert ("critical speeds" in lines(ax)) == (len(critical) > 1)
+    assert ("critical speed" in lines(ax)) == (len(critical) == 1)
     ax.figure.canvas.draw()
 
 
-def test_contact_is_called_lost_where_the_margin_is_negative():
-    N = np.array([np.where(V < 1, -1.0, 2.0), np.full(len(V), 3.0)])
-    ax = plot_margin(V, N, [1.0])
-    words = {text.get_text(): text.get_position()[0] for text in ax.texts}
-    assert words["lost"] < 1 < words["kept"]
-    spans = [
-        patch.get_extents().transformed(ax.transData.inverted()).intervalx for patch in ax.patches
-    ]
-    near(spans, [[V[0], 1.0]], 1e-9)
+def test_what_is_shaded_and_called_lost_is_what_is_given():
+    """Whatever the samples say: between two of them a range can be missed."""
+    regimes = Regimes([V[0], 1.0, 1.001, V[-1]], [True, False, True])
+    ax = plot_margin(V, np.ones((2, len(V))), regimes)
+    places = [text.get_position()[0] for text in ax.texts if text.get_text() == "lost"]
+    assert len(places) == 2 and places[0] < 1 < places[1]
+    near(shaded(ax), [[V[0], 1.0], [1.001, V[-1]]], 1e-9)
 
 
 def test_close_critical_speeds_do_not_cover_each_other():
-    ax = plot_margin(V, FORCES, [5.0, 5.1, 5.2])
+    regimes = Regimes([V[0], 5.0, 5.1, 5.2, V[-1]], [False, True, False, True])
+    ax = plot_margin(V, FORCES, regimes)
     ax.figure.canvas.draw()
     boxes = [text.get_window_extent() for text in ax.texts if text.get_text()[0] == "5"]
     assert len(boxes) == 3
@@ -424,7 +427,9 @@ def test_close_critical_speeds_do_not_cover_each_other():
 
 
 def test_ranges_beyond_the_measured_spring_are_hatched_and_named_once():
-    ax = plot_margin(V, FORCES, CRITICAL, beyond=[[0.3, 0.4], [0.7, 30]])
+    ax = plot_margin(
+        V, FORCES, REGIMES, beyond=[Overtravel(0.3, 0.4, 1.1), Overtravel(0.7, 30, 2.0)]
+    )
     hatched = [patch for patch in ax.patches if patch.get_hatch()]
     assert len(hatched) == 2
     labels = [text.get_text() for text in ax.get_legend().get_texts()]

@@ -13,7 +13,7 @@ import suspension
 
 CONTRACT = (
     "Robot GaussianBump FlatRoad Scheme EULER BACKWARD_EULER CRANK_NICOLSON RK4 "
-    "simulate over_bump margin critical_speeds fly __version__"
+    "simulate over_bump margin critical_speeds regimes fly __version__"
 ).split()
 HEAVY = ["pandas", "statsmodels", "matplotlib", "IPython", "ipywidgets", "anywidget"]
 ASK = """
