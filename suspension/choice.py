@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from suspension import _checks
+from suspension.contact import Regimes, regimes
 from suspension.least_force import distance_over, margin
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
@@ -19,9 +20,13 @@ from suspension.robot import Robot
 from suspension.sweep import drive
 
 __all__ = [
+    "Candidate",
     "Choice",
     "Demands",
     "Exclusion",
+    "Findings",
+    "Ride",
+    "candidate",
     "cheapest",
     "demands",
     "efficient",
@@ -73,6 +78,26 @@ class Choice(NamedTuple):
     margin: float
 
 
+class Candidate(NamedTuple):
+    """A suspension that is looked at closely: see `candidate`.
+
+    Attributes
+    ----------
+    robot : Robot
+    margins : dict of float to float
+        Exact margins at the asked speeds, N; after a loss only their sign means something.
+    worst : Demands
+        Of the asked speeds, shape (1, 1).
+    regimes : Regimes
+        Where contact is kept and lost from the lowest to the highest of them.
+    """
+
+    robot: Robot
+    margins: dict
+    worst: Demands
+    regimes: Regimes
+
+
 class Exclusion(NamedTuple):
     """What speaks against contact at all of several speeds, anywhere in a region.
 
@@ -94,6 +119,61 @@ class Exclusion(NamedTuple):
     c: float
     steepness: float
     points: int
+
+
+class Ride(NamedTuple):
+    """A ride on a rough road.
+
+    Attributes
+    ----------
+    name : str
+        Of the suspension.
+    v : float
+        m/s.
+    force, acceleration, pitch : float
+        Root mean squares of the linear motion, N, m/s^2 and rad.
+    expected, counted : float
+        The part of the time in which the rear wheel would have to be pulled.
+    flights : int
+        How often a wheel leaves the ground.
+    air : float
+        The part of the time in which the rear wheel is in the air.
+    """
+
+    name: str
+    v: float
+    force: float
+    acceleration: float
+    pitch: float
+    expected: float
+    counted: float
+    flights: int
+    air: float
+
+
+class Findings(NamedTuple):
+    """What Part VIII found.
+
+    Attributes
+    ----------
+    least, reserved, wide : Choice or None
+        The cheapest for contact at the asked speeds, with a reserve, and in their whole range.
+    reserve : float
+        N.
+    excluded : Exclusion
+        Of the springs on which the robot rests within the measured displacements.
+    candidates : dict of str to Candidate
+        The present suspension, and those of the choices that are others.
+    rides : sequence of Ride
+    """
+
+    least: Choice | None
+    reserved: Choice | None
+    wide: Choice | None
+    reserve: float
+    excluded: Exclusion
+    candidates: dict
+    rides: tuple
 
 
 def fitted_with(robot, k, c):
@@ -141,6 +221,33 @@ def demands(robot, road, v, k, c, *, distance=None):
         found.acceleration.max(axis=-1),
         found.compression.max(axis=-1),
         part.max(axis=-1),
+    )
+
+
+def candidate(robot, bump, v, *, distance=None):
+    """What a suspension gives and asks for at several speeds, and where it keeps contact.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    v : array_like, shape (speeds,)
+        m/s, > 0, two or more.
+    distance : float, optional
+        How far each run goes, m, as in `suspension.contact.margin`.
+
+    Returns
+    -------
+    Candidate
+    """
+    _own(robot, bump)
+    k, c = [robot.k1], [robot.c1]
+    v, _, _ = _grid(v, k, c)
+    return Candidate(
+        robot,
+        {float(u): margin(robot, bump, u, distance=distance) for u in v},
+        demands(robot, bump, v, k, c, distance=distance),
+        regimes(robot, bump, v.min(), v.max(), distance=distance),
     )
 
 

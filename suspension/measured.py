@@ -4,6 +4,9 @@ The laws are those of `suspension.spring_law`, the runs those of `suspension.swe
 no closed form, so critical values are looked for where the margin changes its sign between samples.
 """
 
+from dataclasses import dataclass
+from typing import NamedTuple
+
 import numpy as np
 from scipy import stats
 
@@ -12,9 +15,20 @@ from suspension.spring_law import SpringLaw, one_law
 from suspension.springs import SpringFit
 from suspension.sweep import drive
 
-__all__ = ["follow_speed", "joint_draws", "zero_speeds", "zero_stops"]
+__all__ = [
+    "Family",
+    "Share",
+    "Study",
+    "follow_speed",
+    "joint_draws",
+    "same_speed",
+    "zero_speeds",
+    "zero_stops",
+]
 
 REACH = 1.3  # a critical speed is looked for within this factor of where it was
+SAME = 0.1  # critical speeds of two laws nearer than this (of a logarithm) are called the same
+SURE = 0.025  # a verdict with a smaller share of doubt is signed
 
 
 def zero_speeds(robot, law, road, v, *, zooms=1, geometry="small"):
@@ -186,3 +200,148 @@ def follow_speed(robot, law, road, v):
     speeds = np.full(law.shape, np.nan)
     speeds[some] = np.exp(_zeros_between(_margins_of(robot, law[some], road), ends, values, 1))
     return speeds
+
+
+class Share(NamedTuple):
+    """The share of draws in which contact is lost, and what n draws can say of the true one.
+
+    Attributes
+    ----------
+    found : float
+        In how many it is lost: a mean over laws if several laws had the same draws, which are then
+        counted once.
+    n : int
+    """
+
+    found: float
+    n: int
+
+    @property
+    def value(self):
+        """The share, 0 to 1."""
+        return self.found / self.n
+
+    @property
+    def low(self):
+        """Lower 95 % confidence bound (Clopper and Pearson 1934); 0 if contact is never lost."""
+        return (
+            float(stats.beta.ppf(0.05, self.found, self.n - self.found + 1)) if self.found else 0.0
+        )
+
+    @property
+    def high(self):
+        """Upper 95 % bound: about 3 / n if contact is never lost, the rule of three."""
+        kept = self.n - self.found
+        return float(stats.beta.ppf(0.95, self.found + 1, kept)) if kept else 1.0
+
+    @property
+    def verdict(self):
+        """True (lost) or False (kept) if the bound leaves less than 2.5 % of doubt, else None."""
+        if self.low >= 1 - SURE:
+            return True
+        return False if self.high <= SURE else None
+
+
+class Family(NamedTuple):
+    """A critical speed that is the same on several laws, m/s, and where the draws have it.
+
+    Attributes
+    ----------
+    speed : float
+        On the first of these laws.
+    laws : tuple of str
+    followed : ndarray, shape (all laws, draws)
+        nan where it was not found, and for a law that does not have it.
+    """
+
+    speed: float
+    laws: tuple
+    followed: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What several laws say of the asked speeds, at the estimates and for draws of coefficients.
+
+    Each dict has the laws' names as keys; the first is the line.
+
+    Parameters
+    ----------
+    asked : sequence of float
+        Speeds, m/s.
+    delta_max : float
+        Largest displacement that was measured, m.
+    runs : dict of str to Drive
+        At the asked speeds, on a ground that only pushes.
+    drawn : dict of str to Drive
+        The same for draws of the coefficients: shape (draws, speeds).
+    critical : dict of str to array_like
+        Critical speeds, m/s.
+    followed : dict of str to list of ndarray
+        Where each of these goes with the coefficients (`follow_speed`), m/s.
+    """
+
+    asked: tuple
+    delta_max: float
+    runs: dict
+    drawn: dict
+    critical: dict
+    followed: dict
+
+    @property
+    def laws(self):
+        """The names of the laws."""
+        return tuple(self.runs)
+
+    def verdicts(self, name):
+        """Whether contact is lost on a law at the asked speeds, bool."""
+        return ~self.runs[name].kept
+
+    def share(self, i, name=None):
+        """The draws that lose contact at the i-th speed, on one law or, alike, on all."""
+        names = self.laws if name is None else (name,)
+        lost = np.array([~self.drawn[law].kept[:, i] for law in names])
+        return Share(float(lost.mean(axis=0).sum()), lost.shape[1])
+
+    def signed(self, i):
+        """What all laws together say of the i-th speed: True (lost), False (kept) or None."""
+        return self.share(i).verdict
+
+    def agreeing(self, i):
+        """How many laws say what the line says of the i-th speed, the line among them."""
+        return sum(self.verdicts(law)[i] == self.verdicts(self.laws[0])[i] for law in self.laws)
+
+    def margins(self, i, name):
+        """95 % interval of the margin, N, at the i-th speed, None if some draws lose contact."""
+        margins = self.drawn[name].margin[:, i]
+        return np.quantile(margins, [0.025, 0.975]) if (margins > 0).all() else None
+
+    @property
+    def touched(self):
+        """At which asked speeds a spring goes beyond `delta_max` on some law, bool."""
+        return np.max([run.compression for run in self.runs.values()], axis=0) > self.delta_max
+
+    @property
+    def families(self):
+        """The critical speeds of all laws, those that are the same on several as one `Family`."""
+        draws = max((len(one) for many in self.followed.values() for one in many), default=0)
+        found = []
+        for law in self.laws:
+            for v, followed in zip(self.critical[law], self.followed[law]):
+                for speed, members in found:
+                    if law not in members and same_speed([speed], v) is not None:
+                        members[law] = followed
+                        break
+                else:
+                    found.append((v, {law: followed}))
+        none = np.full(draws, np.nan)
+        return [
+            Family(float(v), tuple(members), np.array([members.get(x, none) for x in self.laws]))
+            for v, members in sorted(found, key=lambda family: family[0])
+        ]
+
+
+def same_speed(speeds, v):
+    """The one of some critical speeds that is nearest to `v`; None if none is within a tenth."""
+    near = [w for w in speeds if abs(np.log(w / v)) < SAME]
+    return min(near, key=lambda w: abs(np.log(w / v)), default=None)
