@@ -72,7 +72,7 @@ def plot_ripples(v, margin, swings, single, exact, axes):
     return axes
 
 
-def plot_demand_map(k, c, values, levels, marks, label, kept=None, ax=None):
+def plot_demand_map(k, c, values, levels, marks, label, contact=None, ax=None):
     """What suspensions give or ask for, over stiffness and damping, both on logarithmic axes.
 
     Parameters
@@ -86,13 +86,14 @@ def plot_demand_map(k, c, values, levels, marks, label, kept=None, ax=None):
         Suspensions by name: k and c.
     label : str
         What the values are, with their unit.
-    kept : array_like of bool, shape (m, n), optional
-        Where contact is kept: a white line is drawn around it.
+    contact : array_like, shape (m, n), optional
+        Positive where contact is kept and negative where it is lost: a white line parts them.
     """
     ax = axes_or_new(ax)
-    filled = ax.contourf(k, c, values, levels, cmap="cividis", extend="both")
-    if kept is not None and 0 < np.mean(kept) < 1:
-        ax.contour(k, c, np.asarray(kept, dtype=float), [0.5], colors="w", linewidths=2)
+    extend = "both" if levels[0] else "max"
+    filled = ax.contourf(k, c, values, levels, cmap="cividis", extend=extend)
+    if contact is not None and np.min(contact) < 0 < np.max(contact):
+        ax.contour(k, c, contact, [0], colors="w", linewidths=2)
     for marker, (name, place) in zip(MARKERS, marks.items()):
         ax.plot(*place, marker, color="k", mfc="white", ms=6, ls="", label=name)
     ax.set(xscale="log", yscale="log", xlabel="stiffness $k$ (N/m)", ylabel="damping $c$ (N s/m)")

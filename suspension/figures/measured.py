@@ -158,7 +158,7 @@ def plot_stop_stiffness(ratio, felt, kept, marked, ax=None):
             ax.plot(np.asarray(ratio)[these], np.asarray(values)[these], MARKERS[i], **style)
     for name, place in marked.items():
         ax.axvline(place, color="0.5", lw=0.9, ls=":")
-        ax.text(place, 0.02, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
+        ax.text(place, 0.94, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
     ax.set(xlabel=r"stop / spring stiffness $k_\mathrm{s}/k$")
     ax.set(ylabel="largest acceleration (m/s²)")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))

@@ -45,6 +45,7 @@ __all__ = [
     "rough_caption",
     "rough_table",
     "rough_words",
+    "short_waves",
 ]
 
 ALMOST = 0.2  # of a logarithm: a fifth more or less
@@ -444,6 +445,23 @@ def _flights(rides):
     return {name: sum(ride.flights for ride in rides if ride.name == name) for name in names}
 
 
+def short_waves(parts, shortest):
+    """How much of the force comes from waves shorter than the classes were made for.
+
+    Parameters
+    ----------
+    parts : dict of float to float
+        For each speed, m/s, their part of the mean square.
+    shortest : float
+        The shortest wave of the classes, m.
+    """
+    each = join(f"{percent(part, 3)} at {v:g}{SPACE}m/s" for v, part in parts.items())
+    return (
+        f"The classes are meant for waves down to {fixed(shortest, 2)}{SPACE}m. Shorter ones only "
+        f"continue their law, and of the mean square of the rear wheel's force they are {each}."
+    )
+
+
 def rms_caption(names, classes):
     """Caption of the forces' root mean squares."""
     return Caption(
@@ -512,7 +530,7 @@ def _reserve(findings):
 def _range(findings):
     low, high = _present(findings).regimes.edges[[0, -1]]
     where = f"from {low:g} to {high:g}{SPACE}m/s"
-    few = count(len(_present(findings).margins), "").strip()
+    few = count(len(_present(findings).margins), "").split()[0]
     ask = f"Ask for a range of speeds, not for {few}"
     wide = findings.wide
     if wide is None:

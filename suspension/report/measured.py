@@ -544,15 +544,14 @@ def critical_table(study):
         for name in study.laws
         for v, followed in zip(study.critical[name], study.followed[name])
     ]
-    rows += [
-        _critical_row("**all, with equal weights**", family.speed, family.followed.ravel())
-        for family in study.families
-    ]
+    for family in study.families:
+        row = _critical_row("**all, with equal weights**", family.speed, family.followed.ravel())
+        rows.append(row | {"found": f"on {len(family.laws)} of {len(study.laws)} laws"})
     if not rows:
         return "No law has a critical speed in the range."
     note = (
-        "*Found*: in how many of the draws (of all laws, in the last rows) the margin changes its "
-        f"sign within a factor {REACH:g}. Where that is not in all of them, the interval is that "
+        "*Found*: in how many of the draws the margin changes its sign within a factor "
+        f"{REACH:g}. Where that is not in all of them, or not on all laws, the interval is that "
         "of those in which it is, and has no confidence level of its own."
     )
     return f"{table(rows)}\n\n{note}"
