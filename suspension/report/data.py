@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from suspension.report.regression import caution
 from suspension.report.words import (
     SPACE,
     count,
@@ -174,8 +175,7 @@ def _interval(stiffness):
 def _static(fit, load):
     """The displacement at rest, and whether anybody has measured there."""
     x = fit.displacement(load)
-    measured = fit.results.model.exog[:, 1]
-    outside = x > measured.max() or x < measured.min()
+    outside = x > fit.x.max() or x < fit.x.min()
     return fixed(x, 3) + (", outside the measured range" if outside else "")
 
 
@@ -201,8 +201,8 @@ def stiffness_sentence(fit, load):
             "The data contradict a line through the origin, so the slope of the best such line is "
             "no more than a mean over the measured range."
         )
-    parts.append(_at_rest(fit, load))
-    return " ".join(parts)
+    parts += [_at_rest(fit, load), caution(fit, "The intervals")]
+    return " ".join(filter(None, parts))
 
 
 def _with_interval(stiffness):
