@@ -89,7 +89,8 @@ class Stiffness(NamedTuple):
     def distribution(self):
         """Confidence distribution in N/m, a frozen `scipy.stats.t`."""
         self._needs_an_error()
-        return stats.t(self.free, loc=self.value, scale=self.error)
+        # Readings on a curve may leave an error of zero, which makes no distribution.
+        return stats.t(self.free, loc=self.value, scale=max(self.error, np.finfo(float).tiny))
 
     def interval(self, level=0.95):
         """Confidence interval of this stiffness alone, N/m, shape (2,)."""

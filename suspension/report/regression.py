@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from suspension.report.data import caution
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -19,7 +20,6 @@ from suspension.report.words import (
 )
 
 __all__ = [
-    "caution",
     "coefficients",
     "coverage",
     "ellipse_figure",
@@ -41,7 +41,6 @@ KINDS = (
     ("Bonferroni, two at once", "bonferroni", 2),
     ("one at a time", "individual", 1),
 )
-BETRAYED = "../notebooks/01-regression.ipynb#what-would-betray-a-wrong-model"
 FEELS = "../notebooks/01-regression.ipynb#which-stiffness-does-the-robot-feel"
 NAMES = {0: r"the preload $\beta_0$", 2: r"the curvature $\beta_2$"}
 
@@ -249,25 +248,6 @@ def _neighbours(neighbours):
         f"{found} Residuals of one sign stand together.{wander} If the spring was first loaded and "
         "then unloaded, the difference between the two ways is no chance: fit each by itself. If "
         "the force follows another curve than a parabola, no interval tells by how much."
-    )
-
-
-def caution(fit, subject="The interval"):
-    """What stands beside an interval or a test that the residuals contradict, else nothing.
-
-    Parameters
-    ----------
-    fit : SpringFit
-    subject : {"The interval", "The intervals", "The F test"}
-    """
-    neighbours = fit.neighbours
-    if not neighbours.suspicious:
-        return ""
-    suppose, they = ("suppose", "they") if subject.endswith("s") else ("supposes", "it")
-    return (
-        f"{subject} {suppose} independent errors, but "
-        f"[neighbouring residuals correlate]({BETRAYED}) with "
-        f"{fixed(neighbours.correlation, 2)}: {they} cannot be relied on."
     )
 
 
