@@ -159,11 +159,11 @@ def joint_draws(fit, n=128, seed=2086):
     n, seed = _checks.whole("n", n, 2), _checks.whole("seed", seed, 0)
     if n & (n - 1) or n > 2**16:
         raise ValueError(f"n must be a power of two, at most 65536, got {n}")
-    free = int(fit.results.df_resid)
+    free = fit.free
     if free < 1:
         raise ValueError("fit must have more points than the three coefficients, got 3")
     points = stats.qmc.Sobol(4, rng=seed).random(n).T
-    values, axes = np.linalg.eigh(np.asarray(fit.results.cov_params()))
+    values, axes = np.linalg.eigh(fit.covariance)
     z = stats.norm.ppf(points[:3]) * np.sqrt(free / stats.chi2.ppf(points[3], free))
     return fit.beta[:, None] + axes * np.sqrt(np.maximum(values, 0)) @ z
 

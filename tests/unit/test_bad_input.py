@@ -743,6 +743,25 @@ TABLE = [
         also=("README.md", "pyproject.toml"),
     ),
     Row(
+        "SpringFit.power",
+        FIT.power,
+        {"beta0": 0.1, "beta2": 0.5, "level": 0.95},
+        {
+            "beta0": [*not_an_array(0.1), np.nan, np.inf],
+            "beta2": [*not_an_array(0.5), np.nan, -np.inf],
+            "level": [*NOT_A_NUMBER, 0, 1, 95, -0.5],
+        },
+    ),
+    Row(
+        "SpringFit.band",
+        FIT.band,
+        {"x": np.array([0.0, 0.5]), "level": 0.95},
+        {
+            "x": [*not_an_array(np.zeros(2)), 0.5, np.eye(2), [np.nan]],
+            "level": [*NOT_A_NUMBER, 0, 1, 95],
+        },
+    ),
+    Row(
         "spring_law.SpringLaw",
         spring_law.SpringLaw,
         {"beta0": 0.1, "beta1": 13.0, "beta2": -0.5, "delta_max": 0.0165, "stop": 8000.0},

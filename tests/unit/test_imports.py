@@ -9,7 +9,7 @@ from helpers import ROOT
 PACKAGE = ROOT / "suspension"
 # The floors of the core, from the ground up. What stands on one floor reaches lower ones only.
 CORE = (
-    "_checks robot road problem schemes forces simulation _readings springs course exact "
+    "_checks robot road problem schemes forces simulation _formats _readings springs course exact "
     "least_force critical branches contact similarity flight spring_law extremes sweep frequency "
     "choice travel accuracy uncertainty measured tyre energy"
 ).split()

@@ -50,10 +50,10 @@ def test_a_critical_stop_parts_the_stops_that_keep_contact():
 def test_draws_have_the_mean_and_the_covariance_of_students_t():
     fit = fitted(793, preload=0.4, curvature=1.0)
     beta = joint_draws(fit, 4096)
-    free = fit.results.df_resid
-    error = np.sqrt(np.diag(fit.results.cov_params()))
+    free = fit.free
+    error = fit.errors
     assert np.abs((beta.mean(axis=1) - fit.beta) / error).max() < 0.05
-    expected = np.asarray(fit.results.cov_params()) * free / (free - 2)
+    expected = fit.covariance * free / (free - 2)
     np.testing.assert_allclose(np.cov(beta), expected, rtol=0.05)
 
 
