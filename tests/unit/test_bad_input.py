@@ -25,7 +25,7 @@ import suspension
 from suspension import choice, contact, course, exact, frequency, measured, springs
 from suspension.animation import animate_robot
 from suspension.explorer import explore
-from suspension.road import RoughRoad
+from suspension.road import RoadProfile, RoughRoad
 from suspension.sweep import peaks, sweep
 from suspension.travel import travel
 
@@ -341,6 +341,17 @@ TABLE = [
         },
     ),
     Row("RoughRoad()", ROUGH, {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "RoadProfile",
+        RoadProfile,
+        {"x": T, "h": np.zeros(11), "kind": "linear"},
+        {
+            "x": [*not_like(T), -T, np.zeros(11), 1e300 * T],
+            "h": [*not_like(T), 1e300 * T],
+            "kind": [*NOT_A_NUMBER, "", "lines", "Linear", b"linear", ["linear"]],
+        },
+    ),
+    Row("RoadProfile()", RoadProfile([0, 1], [0, 0.1]), {"x": T}, {"x": not_an_array(T)}),
     Row(
         "response",
         frequency.response,
