@@ -40,7 +40,7 @@ from suspension.branches import branches
 from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
-from suspension.road import RoughRoad
+from suspension.road import RoadProfile, RoughRoad
 from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
@@ -538,6 +538,17 @@ TABLE = [
         },
     ),
     Row("RoughRoad()", ROUGH, {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "RoadProfile",
+        RoadProfile,
+        {"x": T, "h": np.zeros(11), "kind": "linear"},
+        {
+            "x": [*not_like(T), -T, np.zeros(11), 1e300 * T],
+            "h": [*not_like(T), 1e300 * T],
+            "kind": [*NOT_A_NUMBER, "", "lines", "Linear", b"linear", ["linear"]],
+        },
+    ),
+    Row("RoadProfile()", RoadProfile([0, 1], [0, 0.1]), {"x": T}, {"x": not_an_array(T)}),
     Row(
         "response",
         frequency.response,
