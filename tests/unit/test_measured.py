@@ -1,15 +1,18 @@
 """Critical speeds and stops of the measured spring, and draws of its coefficients."""
 
+import math
+
 import numpy as np
 import pytest
 from cases import DELTA_MAX, fitted
+from scipy import stats
 
 from suspension.contact import critical_speeds
-from suspension.measured import follow_speed, joint_draws, zero_speeds, zero_stops
+from suspension.measured import Share, Study, follow_speed, joint_draws, zero_speeds, zero_stops
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.spring_law import SpringLaw
-from suspension.sweep import drive
+from suspension.sweep import Drive, drive
 
 BUMP = GaussianBump()
 ROBOT = Robot(800, 800)
@@ -73,3 +76,54 @@ def test_draws_are_the_same_in_every_run():
 def test_readings_without_scatter_leave_nothing_to_draw():
     beta = joint_draws(fitted(793, noise=0.0), 8)
     np.testing.assert_allclose(beta, np.tile(beta[:, :1], 8), atol=1e-9)
+
+
+# --- judgements -----------------------------------------------------------------------------------
+
+
+def test_nothing_found_in_n_draws_leaves_three_nths():
+    for n in (64, 128, 1024):
+        assert math.isclose(Share(0, n).high, 3 / n, rel_tol=0.03)
+        assert math.isclose(Share(n, n).low, 1 - 3 / n, rel_tol=0.03)
+    assert (Share(0, 9).low, Share(9, 9).high) == (0, 1)
+
+
+@pytest.mark.parametrize("found", [1, 7, 40])
+def test_the_bounds_of_a_share_are_those_of_the_binomial_distribution(found):
+    share = Share(found, 50)
+    assert math.isclose(stats.binom.cdf(found, 50, share.high), 0.05, rel_tol=1e-6)
+    assert math.isclose(stats.binom.sf(found - 1, 50, share.low), 0.05, rel_tol=1e-6)
+    assert share.low < share.value < share.high
+
+
+@pytest.mark.parametrize(
+    ("found", "n", "verdict"),
+    [(0, 128, False), (0, 64, None), (128, 128, True), (64, 128, None), (1, 128, None)],
+)
+def test_a_verdict_needs_draws_enough(found, n, verdict):
+    assert Share(found, n).verdict is verdict
+
+
+def driven(margins):
+    margins = np.maximum(margins, 0)
+    nothing = np.zeros_like(margins)
+    return Drive(margins, *[nothing] * 6, *np.zeros((2, 2, *margins.shape)))
+
+
+def test_the_same_draws_on_several_laws_count_once():
+    drawn = {"a": driven(np.ones((8, 1))), "b": driven(-np.ones((8, 1)))}
+    runs = {name: driven(one.margin[0]) for name, one in drawn.items()}
+    study = Study((1.0,), DELTA_MAX, runs, drawn, {"a": [], "b": []}, {"a": [], "b": []})
+    assert study.share(0) == (4, 8) and study.share(0, "b") == (8, 8)
+    assert study.agreeing(0) == 1 and study.signed(0) is None
+    assert study.margins(0, "b") is None and list(study.margins(0, "a")) == [1, 1]
+
+
+def test_critical_speeds_within_a_tenth_are_one_family():
+    critical = {"a": [0.4, 8.0], "b": [0.41], "c": [7.7]}
+    followed = {name: [np.full(3, v) for v in speeds] for name, speeds in critical.items()}
+    study = Study((), DELTA_MAX, dict.fromkeys("abc"), {}, critical, followed)
+    slow, fast = study.families
+    assert slow.laws == ("a", "b") and fast.laws == ("a", "c")
+    assert slow.followed.shape == (3, 3) and np.isnan(slow.followed[2]).all()
+    assert (fast.followed[2] == 7.7).all()
