@@ -89,7 +89,7 @@ def tree(tmp_path_factory):
         shutil.copytree(ROOT / part, tree / part, ignore=shutil.ignore_patterns("__pycache__"))
     for part in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / part, tree)
-    (tree / ".gitignore").write_text("*.mat\n")
+    (tree / ".gitignore").write_text("*.mat\n", encoding="utf-8")
     x = np.linspace(0, 1, 9)
     fields = {"delta_over_delta_max": x, "force": 640 * 0.0165 * x}
     io.savemat(tree / "data" / "spring_data.mat", fields)

@@ -965,7 +965,9 @@ def lab(tmp_path_factory):
         shutil.copytree(ROOT / part, folder / part, ignore=ignore)
     (folder / "_build" / "html" / "book").mkdir(parents=True)
     built = folder / "_build" / "html" / "book" / "model.html"
-    built.write_text("<title>Built</title><h2 id='the-same-as-matrices'>Matrices</h2>")
+    built.write_text(
+        "<title>Built</title><h2 id='the-same-as-matrices'>Matrices</h2>", encoding="utf-8"
+    )
     notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     notebook.metadata.kernelspec = kernel

@@ -48,7 +48,8 @@ def opens(call):
     mode = call.args[1] if name == "open" and len(call.args) > 1 else None
     text = not (isinstance(mode, ast.Constant) and "b" in mode.value)
     is_open = name == "open" and isinstance(call.func, ast.Name) and text
-    return is_open or name in ("read_text", "write_text"), said
+    is_method = isinstance(call.func, ast.Attribute) and name in ("read_text", "write_text")
+    return is_open or is_method, said
 
 
 def test_every_file_is_opened_with_its_encoding():

@@ -242,7 +242,7 @@ def test_a_text_file_that_cannot_be_used_is_refused_in_one_line(tmp_path, conten
 
 def test_displacements_outside_the_range_by_roundoff_are_allowed(tmp_path):
     path = tmp_path / "own.csv"
-    path.write_text(csv("-1e-10,0", *ROWS[1:-1], "1.0000000001,13.3"))
+    path.write_text(csv("-1e-10,0", *ROWS[1:-1], "1.0000000001,13.3"), encoding="utf-8")
     assert load_spring_data(path)["delta_over_delta_max"].iloc[0] == -1e-10
 
 
@@ -331,7 +331,7 @@ def test_the_generator_writes_the_shipped_file_byte_by_byte_and_the_digest_knows
 
 def test_only_those_very_numbers_are_synthetic(tmp_path):
     text = runpy.run_path(str(GENERATOR))["table"]()
-    (tmp_path / "other_name.txt").write_text(text.replace("\n", "\r\n"))
+    (tmp_path / "other_name.txt").write_text(text.replace("\n", "\r\n"), encoding="utf-8")
     data = load_spring_data(tmp_path / "other_name.txt")
     assert is_synthetic(data)
     io.savemat(tmp_path / "own.mat", {name: column.to_numpy() for name, column in data.items()})
@@ -348,7 +348,7 @@ def test_only_those_very_numbers_are_synthetic(tmp_path):
 
 def test_the_command_says_what_was_read(tmp_path, capsys):
     path = tmp_path / "own.csv"
-    path.write_text(csv(*ROWS).replace(",", ";").replace(".", ","))
+    path.write_text(csv(*ROWS).replace(",", ";").replace(".", ","), encoding="utf-8")
     assert _readings.main([str(path)]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "file    own.csv",
@@ -363,7 +363,7 @@ def test_the_command_says_what_was_read(tmp_path, capsys):
 
 def test_the_command_ends_with_the_error_and_the_code_1(tmp_path, capsys):
     path = tmp_path / "own.csv"
-    path.write_text(scaled(100))
+    path.write_text(scaled(100), encoding="utf-8")
     assert _readings.main([str(path)]) == 1
     out, err = capsys.readouterr()
     assert out == "" and err == f"own.csv, line 6: {RANGE} 100: per cent? divide by 100\n"
@@ -371,7 +371,7 @@ def test_the_command_ends_with_the_error_and_the_code_1(tmp_path, capsys):
 
 def test_the_command_is_that_of_the_module_of_the_fit(tmp_path):
     path = tmp_path / "own.csv"
-    path.write_text(csv(*ROWS))
+    path.write_text(csv(*ROWS), encoding="utf-8")
     command = [sys.executable, "-m", "suspension.springs", path]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0 and "slope   772.3 N/m" in done.stdout and not done.stderr
