@@ -304,6 +304,11 @@ class _Full(_Small):
     def __init__(self, cases, dX, way):
         super().__init__(cases, dX, way)
         tilt = super().pitch(self.start)
+        if (np.abs(tilt) > 1).any():
+            raise ValueError(
+                "robots and law must leave the springs at rest no further apart than the "
+                f"wheelbase, got {np.abs(tilt).max():g} times as far"
+            )
         self.start = np.array([self.start[1] - self.arms[1] * tilt, np.arcsin(tilt)])
 
     def rates(self, y, u, H, rise):

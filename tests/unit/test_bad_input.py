@@ -956,7 +956,7 @@ TABLE = [
         DRIVE | {"dt": 0.01, "k": 800, "scheme": RK4, "time": 0.5, "view": "robot"},
         {
             "road": NO_ROADS,
-            "v": [*NOT_POSITIVE, 0.01, 100],
+            "v": [*but(NOT_POSITIVE, None), 0.01, 100],
             "dt": [*NOT_POSITIVE, 0.3],
             "k": but(NOT_POSITIVE, None),
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],

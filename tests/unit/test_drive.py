@@ -436,3 +436,10 @@ def test_a_result_says_what_was_kept():
     found = drive(ROBOT, BUMP, ASKED)
     assert isinstance(found, Drive)
     assert list(found.kept) == [True, False, False, True]
+
+
+def test_a_robot_that_would_stand_upright_is_no_fault_of_the_road():
+    upright = Robot(800, 800, m=50, L1=0.01, L2=0.2)
+    assert np.isfinite(drive(upright, FlatRoad(), 1.0).margin)
+    with pytest.raises(ValueError, match="^robots and law must leave the springs at rest no furth"):
+        drive(upright, FlatRoad(), 1.0, geometry="full")
