@@ -130,7 +130,7 @@ def cut(found):
     what = "the critical speed" if crossings == 1 else "every critical speed there is"
     return (
         f"From {low} to {high}{SPACE}m/s the bump's line crosses the curve {times}, at "
-        f"{speeds}{SPACE}m/s: {what}. Contact is {ranges(found.edges, found.lost)}."
+        f"{speeds}{SPACE}m/s: {what}. Contact is {ranges(found)}."
     )
 
 
@@ -267,7 +267,7 @@ def chart_figure(zetas, own, found, speeds):
         "Highest bump against speed on logarithmic axes, a curve for each damping. All come down "
         "together from the left; to the right they rise, and the more damping there is, the "
         f"sooner they turn down. Over the problem's bump contact is "
-        f"{ranges(found.edges, found.lost)}.".replace(SPACE, " "),
+        f"{ranges(found)}.".replace(SPACE, " "),
     )
 
 
