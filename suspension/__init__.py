@@ -14,11 +14,14 @@ What goes beyond:
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
-- `sweep`: very many runs at once
+- `tyre`: wheels that weigh something, and how light they must be
+- `energy`: what the road puts in, and where it goes
+- `spring_law`: the spring with its preload, its curvature and an end stop
+- `sweep`, `extremes`: very many runs at once, on a ground that only pushes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
-- `measured`: the spring with its preload, its curvature and an end stop
+- `measured`: which verdicts such a spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them; `explore`, a picture with sliders, is loaded when it is first used.

@@ -35,10 +35,15 @@ def serve(folder, *options):
         port = free.getsockname()[1]
     own = {name: str(folder / ".jupyter" / name) for name in PRIVATE}
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    env = os.environ | own | {"PYTHONPATH": path}
+    notebooks = [str(path) for path in (folder / "notebooks").glob("*.ipynb")]
+    if notebooks:  # as `make lab` does
+        trust = [sys.executable, "-m", "jupyter", "trust", *notebooks]
+        subprocess.run(trust, env=env, check=True, capture_output=True)
     command = [sys.executable, "-m", "jupyterlab", *OPTIONS, f"--port={port}"]
     server = subprocess.Popen(
         [*command, f"--ServerApp.root_dir={folder}", *options],
-        env=os.environ | own | {"PYTHONPATH": path},
+        env=env,
         cwd=folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -64,4 +69,15 @@ def run_all(tab, address, notebook):
     tab.wait_for_timeout(1000)
     tab.get_by_role("menuitem", name="Run", exact=True).click()
     tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    tab.wait_for_selector(".suspension-explorer-box.se-live canvas[aria-label]", timeout=90_000)
+    # JupyterLab draws what is in sight.
+    explorer = tab.locator(".suspension-explorer-box.se-live canvas[aria-label]")
+    pages = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer")
+    for _ in range(300):
+        if explorer.count():
+            return
+        tab.wait_for_timeout(500)
+        pages.evaluate("""outer => {
+          const end = outer.scrollTop + outer.clientHeight >= outer.scrollHeight - 5;
+          outer.scrollTop = end ? 0 : outer.scrollTop + 0.9 * outer.clientHeight;
+        }""")
+    raise AssertionError(f"no explorer in {notebook}")

@@ -1,10 +1,10 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
 An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`). Pages
-that hold one get its script and style sheet; the widgets, which only a kernel's front end could use,
-and their state are left out. The directive ``{explorer} name`` shows an explorer that a notebook has
-named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or
-of the page they point to.
+that hold one get its script and style sheet; the widgets, which only a kernel's front end could
+use, and their state are left out. The directive ``{explorer} name`` shows an explorer that a
+notebook has named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of
+their page, or of the page they point to.
 """
 
 import json
@@ -23,7 +23,9 @@ from suspension.explorer import page_script, page_style
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
 BOX = "suspension-explorer-box"
-FOR_NOTEBOOKS = re.compile(r'<p class="se-run">.*?</p><style>.*?</style>')
+FOR_NOTEBOOKS = re.compile(
+    r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
+)
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 FILES = {"explorer.js": page_script, "explorer.css": page_style}
 
@@ -49,7 +51,7 @@ def add_files(app, page, template, context, doctree):
 
 
 def keep_pages(app, page, source):
-    """Leave out what only a notebook shows of an explorer: its widget, and what to run for it."""
+    """Leave out what is for readers of a notebook: the widget, and what to run for it."""
     if Path(app.env.doc2path(page)).suffix != ".ipynb":
         return
     notebook = json.loads(source[0])

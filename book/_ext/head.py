@@ -4,6 +4,10 @@ The book is built for no address in particular. Where it is published is said by
 ``BOOK_ADDRESS``, the address of its first page's folder, and ``BOOK_REPOSITORY``, that of its
 repository. Without the first there is no canonical address and no picture to share; without
 the second there are no buttons that open a notebook elsewhere.
+
+Tried instead: sphinxext-opengraph describes a page by its first 200 characters, cut within a word,
+with the LaTeX of formulas; sphinx-notfound-page writes addresses into its page that `light_pages`
+does not find, and needs to know where the book will be.
 """
 
 import os

@@ -20,7 +20,7 @@ from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range
 from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
-from suspension.explorer.still import critical, draw, knows_all_speeds, picture, still
+from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.flight import fly
 from suspension.road import FlatRoad
@@ -226,7 +226,8 @@ class ExplorerBox(ipywidgets.VBox):
 
     def _display(self, metadata):
         drawn = self._draw()
-        page = {"text/html": self._html(drawn), "image/svg+xml": picture(drawn)}
+        html = self._html(drawn, " hidden", RUN_NOTEBOOK)  # a page takes both out
+        page = {"text/html": html, "image/svg+xml": picture(drawn)}
         display(page, raw=True, metadata=metadata)
         # Nothing as HTML: a page, or a notebook that is not trusted, has the first display.
         widget = super()._repr_mimebundle_() | {"text/html": ""}
@@ -244,7 +245,7 @@ class ExplorerBox(ipywidgets.VBox):
         self.explorer.know_critical_speeds()
         return draw(self.explorer)
 
-    def _html(self, drawn):
+    def _html(self, drawn, hidden="", below=""):
         explorer = self.explorer
         state = {name: getattr(explorer, name) for name in (*TRAITS, "view", "facts")}
         state["tables"] = {
@@ -254,8 +255,8 @@ class ExplorerBox(ipywidgets.VBox):
         kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
         return (
             f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
-            f'<div class="se-controls" hidden>{explorer.controls}</div>'
-            f'<div class="se-place">{still(explorer, drawn)}</div></div>'
+            f'<div class="se-controls"{hidden}>{explorer.controls}</div>'
+            f'<div class="se-place">{still(explorer, drawn)}{below}</div></div>'
             f'<script type="application/json" class="se-state">{text}</script></div>'
         )
 

@@ -14,7 +14,7 @@ from suspension.forces import WHEEL
 from suspension.least_force import minima
 from suspension.report.words import join, quantity
 
-__all__ = ["critical", "draw", "knows_all_speeds", "picture", "still"]
+__all__ = ["RUN_NOTEBOOK", "critical", "draw", "knows_all_speeds", "picture", "still"]
 
 DEFINITIONS = re.compile(r"<defs>.*?</defs>", re.DOTALL)  # the letters' shapes
 PATH = re.compile(r'(?<= d=")[^"]*')
@@ -22,12 +22,13 @@ NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
 FAR = 4  # times the usual way
-# In a notebook without its kernel there is no widget, and this picture says what to do about it.
-NO_WIDGET = (
-    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + "
-    ".jp-OutputArea-child:has(> .jupyter-widgets:not(:has(*))) { display: none; }</style>"
-)
 RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
+# What a notebook says below it, and hides if it has no kernel: that there is no widget.
+RUN_NOTEBOOK = (
+    f'<p class="se-run"><strong>{RUN}</strong></p>'
+    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + .jp-OutputArea-child > "
+    ".jupyter-widgets:not(:has(*)) { display: none; }</style>"
+)
 
 
 def draw(explorer):
@@ -37,16 +38,10 @@ def draw(explorer):
 
 
 def still(explorer, drawn):
-    """What was drawn as an HTML image, with a text for those who cannot see it.
-
-    Behind it stands what to do where no script will replace it: in a notebook before it is run.
-    """
+    """What was drawn as an HTML image, with a text for those who cannot see it."""
     source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
     text = _describe(explorer, explorer.trajectory())
-    return (
-        f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
-        f'<p class="se-run"><strong>{RUN}</strong></p>{NO_WIDGET}'
-    )
+    return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 
 def picture(drawn):

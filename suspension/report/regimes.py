@@ -347,11 +347,13 @@ def _critical_row(critical):
     speed, low, high = critical.speed, critical.low, critical.high
     relative = (high - low) / high
     digits = int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
-    known = speed is not None and critical.everywhere
+    half = "–"
+    if speed is not None and critical.everywhere:
+        half = percent((high - low) / 2 / speed) if high > low else "0"
     return {
         "critical speed (m/s)": "–" if speed is None else number(speed, digits),
         "95 % interval (m/s)": f"{number(low, digits)} to {number(high, digits)}",
-        "relative half-width": percent((high - low) / 2 / speed) if known else "–",
+        "relative half-width": half,
         "note": existence(critical) or "–",
     }
 

@@ -36,11 +36,11 @@ UNITS = {
 
 
 def say(*parts, name=None):
-    """Show Markdown paragraphs that a computation has filled in.
+    """Show Markdown paragraphs that a computation has filled in; an empty one is left out.
 
     With a `name`, other pages of the book can quote them.
     """
-    display(Markdown("\n\n".join(parts)), metadata=_named(name) if name else {})
+    display(Markdown("\n\n".join(filter(None, parts))), metadata=_named(name) if name else {})
 
 
 def _named(name):

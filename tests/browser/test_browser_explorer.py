@@ -16,10 +16,11 @@ from lab import run_all, serve
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from PIL import Image
 
+from suspension import problem
 from suspension.contact import margin
 from suspension.course import the_robot
 from suspension.explorer import SCHEMES, explore, page_script, page_style
-from suspension.explorer.family import Family
+from suspension.explorer.family import Family, Range
 from suspension.flight import fly
 from suspension.forces import first_loss
 from suspension.road import GaussianBump
@@ -42,6 +43,7 @@ def two_bumps(x):
 exec(BUMPS)  # the notebook below defines it by the same lines
 LOPSIDED = "Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)"
 HEUN = Scheme("Heun", 2, a=[[0, 0], [1, 0]], b=[1 / 2, 1 / 2], c=[0, 1])
+KNOWN = {"asked": problem.SPEEDS, "spring_end": problem.DELTA_MAX}
 PAGES = {
     "bump": (Robot(793.2, 793.2), GaussianBump()),
     "bumps": (eval(LOPSIDED), two_bumps),  # noqa: F821
@@ -57,7 +59,7 @@ def pages(tmp_path_factory):
     (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
     for name, (robot, road) in PAGES.items():
         presets = [("Long steps", {"v": 5, "dt": 0.05, "scheme": "Crank-Nicolson"})]
-        box = explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets)
+        box = explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets, **KNOWN)
         (folder / f"{name}.html").write_text(
             '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
@@ -194,6 +196,11 @@ def place(reach, rng):
     return reach.low + u * (reach.high - reach.low)
 
 
+def ranges_of(family):
+    """Where every slider begins and ends."""
+    return {"v": Range(*family.speeds, True)} | family.ranges
+
+
 def family_at(settings):
     """The robot and the bump of the page "bump" at some settings."""
     family = Family(*PAGES["bump"])
@@ -210,7 +217,7 @@ def turn(tab, rng, family, nth=0):
     for trait, name in names.items():
         if name in BUMP_SLIDERS and not family.has_bump:
             continue
-        value = place(family.ranges[trait], rng) * units.get(trait, 1)
+        value = place(ranges_of(family)[trait], rng) * units.get(trait, 1)
         type_in(tab, name, f"{value:.7g}", nth)
         for _ in range(int(rng.integers(3))):
             slider(tab, name, nth).press(str(rng.choice(["ArrowLeft", "ArrowRight"])))
@@ -382,7 +389,7 @@ def test_the_headline_is_never_surer_than_the_exact_margin(visit, pages):
     tones = set()
     for _ in range(30):
         settings = {
-            name: place(reach, rng) for name, reach in Family(*PAGES["bump"]).ranges.items()
+            name: place(reach, rng) for name, reach in ranges_of(Family(*PAGES["bump"])).items()
         }
         go_to(tab, scheme=rng.choice([scheme.name for scheme in SCHEMES]), **settings)
         text, exact = headline(tab), tab.locator(VIEW).evaluate("root => root.trajectory().exact")
@@ -1179,7 +1186,10 @@ def test_phrases_and_links_lead_somewhere_in_jupyterlab(browser, lab):
     (folder / "_build" / "html" / "book" / "model.html").unlink()  # not built: its text, rendered
     tab.bring_to_front()
     tab.get_by_role("link", name="the package").click()
-    tab.locator(".jp-MarkdownViewer h1").first.wait_for()
+    heading = tab.locator(".jp-MarkdownViewer").get_by_role("heading", name="The same, as matrices")
+    heading.wait_for()
+    tab.wait_for_timeout(500)
+    assert 0 < heading.bounding_box()["y"] < 400
     tab.close()
 
 

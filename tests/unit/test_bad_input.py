@@ -31,6 +31,7 @@ from suspension import (
     frequency,
     measured,
     similarity,
+    spring_law,
     springs,
     travel,
 )
@@ -39,8 +40,8 @@ from suspension.branches import branches
 from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
-from suspension.road import RoughRoad
-from suspension.sweep import peaks, sweep
+from suspension.road import RoadProfile, RoughRoad
+from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
 
@@ -60,8 +61,8 @@ W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
 TYRE = Tyre(0.01, 1e5, 3.0)
 FLIGHT = suspension.fly(ROBOT, BUMP, v=5, tfinal=0.1)
-LAW = measured.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
-TWO_LAWS = measured.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
+LAW = spring_law.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
+TWO_LAWS = spring_law.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
 
 class Thing:
@@ -95,7 +96,7 @@ NOT_A_ROBOT = [*NOT_AN_OBJECT, Thing, suspension.Robot, BUMP, RK4, len]
 NOT_A_BUMP = [*NOT_AN_OBJECT, Thing, suspension.GaussianBump, ROBOT, suspension.FlatRoad(), len]
 NOT_A_SCHEME = [*NOT_AN_OBJECT, Thing, suspension.Scheme, "RK4", ROBOT, len]
 NOT_A_TABLE = [*NOT_AN_OBJECT, Thing, ROBOT, DATA["force"], np.ones((5, 2)), len]
-NOT_A_LAW = [*NOT_AN_OBJECT, Thing, measured.SpringLaw, FIT, ROBOT, len]
+NOT_A_LAW = [*NOT_AN_OBJECT, Thing, spring_law.SpringLaw, FIT, ROBOT, len]
 NOT_A_FIT = [*NOT_AN_OBJECT, Thing, springs.SpringFit, FIT.results, DATA, LAW, len]
 NO_ROADS = [
     lambda x: None,
@@ -493,23 +494,37 @@ TABLE = [
         {"v": NOT_POSITIVE, "names": [*NOT_A_NUMBER, "k", "V", "height", ["k1"]]},
         NO_CROSSING,
     ),
-    *(
-        Row(
-            function.__name__,
-            function,
-            {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10}
-            | {"distance": 1.0, "scheme": RK4},
-            {
-                "robots": [[ROBOT] * 3],
-                "road": NO_ROADS,
-                "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
-                "steps": [*NOT_WHOLE, 10**12, 10**9],
-                "distance": NOT_POSITIVE,
-            },
-            {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
-            | {"scheme": NOT_A_SCHEME},
-        )
-        for function in (sweep, peaks)
+    Row(
+        "sweep",
+        sweep,
+        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10}
+        | {"distance": 1.0, "scheme": RK4},
+        {
+            "robots": [[ROBOT] * 3],
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
+            "steps": [*NOT_WHOLE, 10**12, 10**9],
+            "distance": NOT_POSITIVE,
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+        | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "drive",
+        drive,
+        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [20.0, 10.0], "law": TWO_LAWS}
+        | {"ground": "pulls", "geometry": "full", "distance": 1.25, "fine": 0.1},
+        {
+            "robots": [[ROBOT] * 3],
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1e-3, 1e-6]],
+            "ground": [*NOT_A_NUMBER, "pulled", "Pushes"],
+            "geometry": [*NOT_A_NUMBER, "large", True],
+            "distance": [*but(NOT_POSITIVE, None), 1e9],
+            "fine": [*NOT_POSITIVE, 1e9, 1e300],
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+        | {"law": but(NOT_A_LAW, None)},
     ),
     Row(
         "RoughRoad",
@@ -523,6 +538,17 @@ TABLE = [
         },
     ),
     Row("RoughRoad()", ROUGH, {"x": T}, {"x": not_an_array(T)}),
+    Row(
+        "RoadProfile",
+        RoadProfile,
+        {"x": T, "h": np.zeros(11), "kind": "linear"},
+        {
+            "x": [*not_like(T), -T, np.zeros(11), 1e300 * T],
+            "h": [*not_like(T), 1e300 * T],
+            "kind": [*NOT_A_NUMBER, "", "lines", "Linear", b"linear", ["linear"]],
+        },
+    ),
+    Row("RoadProfile()", RoadProfile([0, 1], [0, 0.1]), {"x": T}, {"x": not_an_array(T)}),
     Row(
         "response",
         frequency.response,
@@ -626,7 +652,7 @@ TABLE = [
         "efficient",
         choice.efficient,
         {"costs": np.ones((3, 2))},
-        {"costs": not_finite(np.ones((3, 2)))},
+        {"costs": [*not_finite(np.ones((3, 2))), np.ones((5001, 2))]},
     ),
     *(
         Row(
@@ -744,8 +770,27 @@ TABLE = [
         also=("README.md", "pyproject.toml"),
     ),
     Row(
-        "measured.SpringLaw",
-        measured.SpringLaw,
+        "SpringFit.power",
+        FIT.power,
+        {"beta0": 0.1, "beta2": 0.5, "level": 0.95},
+        {
+            "beta0": [*not_an_array(0.1), np.nan, np.inf],
+            "beta2": [*not_an_array(0.5), np.nan, -np.inf],
+            "level": [*NOT_A_NUMBER, 0, 1, 95, -0.5],
+        },
+    ),
+    Row(
+        "SpringFit.band",
+        FIT.band,
+        {"x": np.array([0.0, 0.5]), "level": 0.95},
+        {
+            "x": [*not_an_array(np.zeros(2)), 0.5, np.eye(2), [np.nan]],
+            "level": [*NOT_A_NUMBER, 0, 1, 95],
+        },
+    ),
+    Row(
+        "spring_law.SpringLaw",
+        spring_law.SpringLaw,
         {"beta0": 0.1, "beta1": 13.0, "beta2": -0.5, "delta_max": 0.0165, "stop": 8000.0},
         {
             "beta0": [*not_an_array(0.1), np.nan, np.inf, [np.nan, 0.0]],
@@ -757,41 +802,30 @@ TABLE = [
     ),
     Row(
         "SpringLaw.of",
-        measured.SpringLaw.of,
+        spring_law.SpringLaw.of,
         {"fit": FIT, "stop": 8000.0},
         {"stop": [*not_an_array(8000.0), np.nan, np.inf, -1.0]},
         {"fit": NOT_A_FIT},
     ),
     Row(
-        "measured.rest",
-        measured.rest,
+        "spring_law.rest",
+        spring_law.rest,
         {"robot": ROBOT, "law": LAW},
         {},
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
     ),
     Row(
         "linearised",
-        measured.linearised,
+        spring_law.linearised,
         {"robot": ROBOT, "law": LAW, "w": np.zeros(4)},
         {"law": [TWO_LAWS], "w": but(not_like(np.zeros(4)), None)},
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
     ),
     Row(
         "make_measured_gfunc",
-        lambda robot, law, road: measured.make_measured_gfunc(robot, law, road)(T[:4], 0.1, 1.0),
+        lambda robot, law, road: spring_law.make_measured_gfunc(robot, law, road)(T[:4], 0.1, 1.0),
         {"robot": ROBOT, "law": LAW, "road": BUMP},
         {"law": [TWO_LAWS], "road": NO_ROADS},
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
-    ),
-    Row(
-        "drive",
-        measured.drive,
-        {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": [20.0, 10.0], "fine": 0.1},
-        {
-            "road": NO_ROADS,
-            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1.0] * 10**6],
-            "fine": [*NOT_POSITIVE, 1e9, 1e300],
-        },
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
@@ -803,14 +837,26 @@ TABLE = [
             "v": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
             "zooms": [*NOT_NONNEGATIVE, 0.5],
         },
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
+        {"law": NOT_A_LAW},
+    ),
+    Row(
+        "zero_stops",
+        measured.zero_stops,
+        {"robot": ROBOT, "law": LAW, "road": BUMP, "v": 20.0, "stops": [5e2, 1e3], "zooms": 0},
+        {
+            "law": [TWO_LAWS],
+            "v": [*NOT_POSITIVE, 1e-300],
+            "stops": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
+            "zooms": [*NOT_NONNEGATIVE, 0.5],
+        },
+        {"law": NOT_A_LAW},
     ),
     Row(
         "follow_speed",
         measured.follow_speed,
         {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": 20.0},
         {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300]},
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+        {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
         "joint_draws",

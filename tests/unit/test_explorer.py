@@ -376,6 +376,7 @@ def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     box = explore(ROBOT, BUMP, v=1.2)
     html = box._repr_mimebundle_()["text/html"]
     state = state_of(html)
+    assert '<div class="se-controls">' in html and "Run All" not in html
     assert state["v"] == 1.2 and state["facts"]["own"]["k"] == 793.2
     assert base64.b64decode(state["tables"]["road"]) == box.explorer.tables["road"]
     traits = re.findall(r'data-trait="(\w+)"', html)
@@ -401,6 +402,7 @@ def test_a_notebook_gets_a_still_picture_that_says_what_to_run_and_then_the_widg
     for text in page.values():
         assert "run the notebook (Run &gt; Run All Cells)" in text
     ElementTree.fromstring(page["image/svg+xml"])  # well-formed
+    assert '<div class="se-controls" hidden>' in page["text/html"]  # dead, they are not shown
     view = "application/vnd.jupyter.widget-view+json"
     assert widget[view]["model_id"] and widget["text/html"] == ""
 

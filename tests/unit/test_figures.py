@@ -128,13 +128,17 @@ ON_ONE = {
         RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6), ax
     ),
     "plot_stop_stiffness": lambda ax: plot_stop_stiffness(
-        np.geomspace(1, 1e4, 9), {1.2: np.linspace(3, -300, 9)}, {"rubber": 10}, ax
+        np.geomspace(1, 1e4, 9),
+        {1.2: np.linspace(3, 300, 9)},
+        {1.2: T[:9] < 0.05},
+        {"rubber": 10},
+        ax,
     ),
     "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
     "plot_demand_map": lambda ax: plot_demand_map(
-        K, C, K / 100 - C[:, None], [-5, 0, 5], {"now": (800, 1.5)}, "margin (N)", ax
+        K, C, K / 100 - C[:, None], [-5, 0, 5], {"now": (800, 1.5)}, "margin (N)", ax=ax
     ),
-    "plot_front": lambda ax: plot_front(C / 100, C - 2, 1 + C, {"now": (0.02, 0)}, ax),
+    "plot_front": lambda ax: plot_front(C / 100, 1 + C, C - 2, {"now": (0.02, 2)}, ax),
     "plot_margins": lambda ax: plot_margins(V, {"now": FORCES[0], "then": FORCES[1]}, [1.2], ax),
     "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
@@ -170,7 +174,7 @@ PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
 PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|m/s²|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -523,14 +527,33 @@ def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
 
 
 def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
-    marks = {"now": (800, 1.5), "then": (400, 2)}
-    ax = plot_demand_map(K, C, K / 100 - C[:, None] - 3, [-5, 0, 5], marks, "margin (N)")
+    marks, values = {"now": (800, 1.5), "then": (400, 2)}, K / 100 - C[:, None] - 3
+    ax = plot_demand_map(K, C, 9 + values, [0, 5, 9], marks, "acceleration (m/s²)", values)
     drawn = lines(ax)
     for name, place in marks.items():
         near(np.ravel(drawn[name].get_xydata()), place, 1e-15)
-    assert title(ax) == "margin (N)"
-    without = plot_demand_map(K, C, K / 100 + C[:, None], [1, 5, 9], {}, "compression (mm)")
+    assert title(ax) == "acceleration (m/s²)"
+    k, c = ax.collections[-1].get_paths()[0].vertices.T
+    near(k / 100, c + 3, 0.02)
+    without = plot_demand_map(K, C, values, [1, 5, 9], {}, "compression (mm)", 1 + 0 * values)
     assert len(without.collections) < len(ax.collections)
+
+
+def test_best_compromises_that_lose_contact_are_rings():
+    margin = np.where(C > 2, C, 0.0)
+    ax = plot_front(C / 100, 1 + C, margin, {"now": (0.02, 2)})
+    rings, dots = ax.lines[0], ax.collections[0]
+    near(rings.get_xdata(), 10 * C[margin == 0], 1e-15)
+    near(dots.get_offsets()[:, 0], 10 * C[margin > 0], 1e-15)
+    near(dots.get_array(), margin[margin > 0], 1e-15)
+
+
+def test_stops_that_take_contact_are_open():
+    ratio, felt = np.geomspace(1, 100, 3), np.array([5.0, 9.0, 40.0])
+    ax = plot_stop_stiffness(ratio, {1.2: felt}, {1.2: [True, False, False]}, {})
+    kept, lost = (line for line in ax.lines if line.get_linestyle() == "None")
+    assert list(kept.get_ydata()) == [5] and list(lost.get_ydata()) == [9, 40]
+    assert lost.get_markerfacecolor() == "white" != kept.get_markerfacecolor()
 
 
 def test_a_rough_ride_is_shaded_where_a_wheel_is_in_the_air():

@@ -1,8 +1,10 @@
 """The time loop: what it computes, and that the band solve is the plain loop."""
 
+import io
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -291,3 +293,15 @@ def test_a_trajectory_says_what_it_is_and_cannot_be_changed():
     assert repr(run) == "<Trajectory: RK4, v = 1.2 m/s, dt = 0.01 s, 10 steps to t = 0.1 s>"
     with pytest.raises(AttributeError):
         run.v = 2
+
+
+def test_a_frame_has_what_the_run_has_with_units():
+    run = simulate(Robot(800, 600), GaussianBump(), v=1.2, dt=0.01, tfinal=0.4)
+    frame = run.to_frame()
+    assert frame.columns.tolist() == [
+        *("t (s)", "X (m)", "Y (m)", "Y' (m/s)", "theta (rad)", "theta' (rad/s)"),
+        *("N1 rear (N)", "N2 front (N)"),
+    ]
+    np.testing.assert_array_equal(frame.to_numpy().T, np.vstack([run.T, run.X, run.W, run.N]))
+    again = pd.read_csv(io.StringIO(frame.to_csv(index=False)))
+    pd.testing.assert_frame_equal(again, frame, rtol=1e-15)

@@ -62,8 +62,17 @@ async function activate(app) {
 
   const followText = async (path, anchor) => {
     const page = await builtPage(path);
-    if (page) window.open(anchor ? `${page}#${anchor}` : page, "_blank");
-    else app.commands.execute("rendermime:handle-link", { path, id: anchor && `#${anchor}` });
+    if (page) {
+      window.open(anchor ? `${page}#${anchor}` : page, "_blank");
+      return;
+    }
+    const shown = await app.commands.execute("docmanager:open", { path, factory: "Markdown Preview" });
+    await shown?.content?.ready;
+    const headings = () => [...(shown?.node.querySelectorAll("h1, h2, h3, h4, h5, h6") ?? [])];
+    await until(() => headings().length);
+    headings()
+      .find((heading) => anchorOf(heading.textContent.replace("¶", "")) === anchor)
+      ?.scrollIntoView();
   };
 
   const followNotebook = async (path, anchor) => {
