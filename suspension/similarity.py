@@ -76,7 +76,7 @@ class Window(NamedTuple):
     height: float
 
 
-def groups(robot, bump, v):
+def groups(robot: Robot, bump: GaussianBump, v: float) -> Groups:
     """The five groups of a symmetric robot that crosses a bump.
 
     Parameters
@@ -117,7 +117,7 @@ def groups(robot, bump, v):
     )
 
 
-def natural_units(groups):
+def natural_units(groups: Groups) -> tuple[Robot, GaussianBump, float]:
     """The robot, bump and speed of given groups for which mass, sag, omega0 and sigma are one.
 
     Parameters
@@ -172,8 +172,8 @@ def way(robot, bump, v, swings=8):
 
 
 def highest_bump(
-    robot: Robot, bump: GaussianBump, v: ArrayLike, *, distance: float | None = None
-) -> np.ndarray:
+    robot: Robot, bump: GaussianBump, v: ArrayLike, *, distance: ArrayLike | None = None
+) -> float | np.ndarray:
     """Height of the highest bump that is crossed with contact: a higher one lifts a wheel.
 
     Forces are linear in the height, ``N_i = load_i + height f_i(t)``, so the answer is the least
@@ -222,8 +222,8 @@ def _runs(robot, bump, v, distance):
     if distance is None:
         distance = distance_over(robot, bump)
     distance = _positive("distance", distance)
-    for shortest in [distance.min()] if distance.size else []:
-        distance_over(robot, bump, shortest)  # no wheel may stand on the bump at the start
+    if distance.size:
+        distance_over(robot, bump, distance.min())  # no wheel may stand on the bump at the start
     try:
         v, distance = np.broadcast_arrays(v, distance)
     except ValueError:
@@ -414,6 +414,7 @@ def window(robot, bump, vmin, vmax, *, distance=None):
     window : Window or None
         None if no speed loses contact, or none beyond the slowest that does is safer. The window is
         open, the bump itself is crossed there with contact, if its height is more than the bump's.
+        It is found among speeds 3 % apart, then to roundoff.
     """
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     if not (distance is None or callable(distance)):

@@ -700,6 +700,22 @@ TABLE = [
         {"v": [*not_an_array(1.0), 0, [1, -1], np.nan], "swings": NOT_NONNEGATIVE},
         NO_CROSSING,
     ),
+    *(
+        Row(
+            "natural_units",
+            lambda name, value: similarity.natural_units(
+                similarity.Groups(1.0, 0.1, 3.0, 1.0, 4.0)._replace(**{name: value})
+            ),
+            {"name": name, "value": 2.0},
+            {"value": bad},
+            also=(name, "height"),
+        )
+        for name, bad in [
+            *((name, NOT_POSITIVE) for name in ("nu", "j", "lam")),
+            ("zeta", NOT_NONNEGATIVE),
+            ("eta", NOT_A_NUMBER),
+        ]
+    ),
     Row("follow", similarity.follow, {"nu": 1.0, "j": 1.0}, {"nu": [0, "1"], "j": NOT_POSITIVE}),
     Row("throw", similarity.throw, {"nu": 1.0}, {"nu": [*not_an_array(1.0), 0, -1, np.inf]}),
     *(
