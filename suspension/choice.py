@@ -152,7 +152,7 @@ class Ride(NamedTuple):
 
 
 class Findings(NamedTuple):
-    """What Part VIII found.
+    """What Part IX found.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Figures of Part VIII: the robot as a filter, maps for a choice of suspension, a rough road."""
+"""Figures of Part IX: the robot as a filter, maps for a choice of suspension, a rough road."""
 
 import numpy as np
 

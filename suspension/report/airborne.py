@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part VI: flights, in two models of the free wheel."""
+"""Sentences, tables and captions of Part VII: flights, in two models of the free wheel."""
 
 import numpy as np
 
@@ -382,7 +382,7 @@ def order_sentence(v, orders):
     if v is None:
         return (
             "With this spring no wheel lands at the asked speeds, so there is no switch to study "
-            "there. [Part V](../notebooks/05-critical-speeds.ipynb) says at which speeds one would."
+            "there. [Part VI](../notebooks/06-critical-speeds.ipynb) says at which speeds one would."
         )
     blind, located = orders
     words = (

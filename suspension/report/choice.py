@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part VIII: the robot as a filter, a choice of suspension.
+"""Sentences, tables and captions of Part IX: the robot as a filter, a choice of suspension.
 
 A suspension is a robot, of which stiffness and damping, alike on both axles, are told. `candidates`
 holds a `suspension.choice.Candidate` for each by name, the present one first; `maps` is a
@@ -95,7 +95,7 @@ def gains_caption(speeds, base):
 def ripples_caption(v):
     """Caption of the margin above the swings left behind, over speeds `v`, m/s."""
     return Caption(
-        "Above: the margin of Part V. Below: the swings that the bump leaves behind in heave and "
+        "Above: the margin of Part VI. Below: the swings that the bump leaves behind in heave and "
         "pitch, from its spectrum (lines), from the closed form (symbols), and without the comb "
         "(dotted).",
         f"Two panels over speed from {number(v[0])} to {number(v[-1])}{SPACE}m/s. Above the "
@@ -251,8 +251,8 @@ def rest_note(fit, robot):
     return (
         "The readings contradict a spring without preload and curvature. All of this part is "
         f"reckoned with the line, on which the robot rests at {fixed(1000 * line, 1)}{SPACE}mm; on "
-        f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VII]"
-        "(07-measured-spring.ipynb) says what else that changes."
+        f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VIII]"
+        "(08-measured-spring.ipynb) says what else that changes."
     )
 
 
@@ -378,7 +378,7 @@ def drive_links(candidates, reach, v):
     for name, (robot, *_) in candidates.items():
         if robot.k1 in reach["k"] and robot.c1 in reach["c"]:
             settings = f"v={v:g}&k={robot.k1:.6g}&c={robot.c1:.6g}&motion=flying"
-            phrases.append(f"[{name}](../notebooks/09-drive.ipynb#explore:{settings})")
+            phrases.append(f"[{name}](../notebooks/10-drive.ipynb#explore:{settings})")
         else:
             outside.append(name)
     words = [f"Drive them over the bump at {v:g}{SPACE}m/s: {join(phrases)}."] if phrases else []

@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part VII: the measured spring with its stop.
+"""Sentences, tables and captions of Part VIII: the measured spring with its stop.
 
 In all of them a law is called by its name, and the first is the line. `runs` holds a
 `suspension.sweep.Drive` for each law at the asked speeds, on a ground that only pushes; `study` is
@@ -412,11 +412,11 @@ def order_sentence(orders):
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
     first, *others = orders.values()
     if max(orders.values()) < KINK:
-        what = "On the stop the order is [that of a kink](06-flight.ipynb#one-bad-step), two."
+        what = "On the stop the order is [that of a kink](07-flight.ipynb#one-bad-step), two."
     elif first > KINK > max(others, default=first):
         what = (
             "A stop is a kink of the force, and a kink costs RK4 its order: "
-            "[two is what is left](06-flight.ipynb#one-bad-step)."
+            "[two is what is left](07-flight.ipynb#one-bad-step)."
         )
     else:
         what = "With these steps the kink does not show everywhere."

@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part V and the landing page: at which speeds contact is lost.
+"""Sentences, tables and captions of Part VI and the landing page: at which speeds contact is lost.
 
 `regimes` is a `suspension.contact.Regimes` over the speeds looked at, `beyond` what
 `suspension.travel.overtravel` finds there: the ranges in which a spring is compressed further than
@@ -549,7 +549,7 @@ def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
     words.append(
         f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
         f"where {small_angle(tilt)}; "
-        "[in the air](../notebooks/06-flight.ipynb) it is another matter."
+        "[in the air](../notebooks/07-flight.ipynb) it is another matter."
     )
     return " ".join(words)
 

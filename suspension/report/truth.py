@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part IV: runs compared with the closed form."""
+"""Sentences, tables and captions of Part V: runs compared with the closed form."""
 
 import numpy as np
 
@@ -377,7 +377,7 @@ def missed_table(speeds, missed, shown=None, force=None):
         parts.append(
             f"The figure shows {speed_list([shown])}, where the force falls to "
             f"{number(force, 2)}{SPACE}N. [The exact "
-            "margin](../notebooks/05-critical-speeds.ipynb) does "
+            "margin](../notebooks/06-critical-speeds.ipynb) does "
             "not depend on where a method happens to stop."
         )
     return "\n\n".join(parts)

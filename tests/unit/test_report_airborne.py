@@ -1,4 +1,4 @@
-"""Sentences of Part VI, for springs and robots of every kind."""
+"""Sentences of Part VII, for springs and robots of every kind."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""Sentences of Part VIII, for springs and robots of every kind."""
+"""Sentences of Part IX, for springs and robots of every kind."""
 
 from dataclasses import replace
 
@@ -215,7 +215,7 @@ def test_what_a_suspension_survives(margins, words):
 def test_links_lead_to_what_the_sliders_reach():
     reach = Family(ROBOT, GaussianBump()).ranges
     text = part.drive_links({"this": look(SOFT), "that": look(WIDE.robot)}, reach, 1.2)
-    assert "[this](../notebooks/09-drive.ipynb#explore:v=1.2&k=277&c=1.57&motion=flying)" in text
+    assert "[this](../notebooks/10-drive.ipynb#explore:v=1.2&k=277&c=1.57&motion=flying)" in text
     assert "That: beyond the end" in text and "[that]" not in text
     alone = part.drive_links({"that": look(WIDE.robot)}, reach, 1.2)
     assert alone.startswith("That: beyond")

@@ -1,4 +1,4 @@
-"""Sentences of Part VII, one branch after another; and nothing that no sentence may contain."""
+"""Sentences of Part VIII, one branch after another; and nothing that no sentence may contain."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""Sentences of Part V and the landing page, for springs and robots of every kind."""
+"""Sentences of Part VI and the landing page, for springs and robots of every kind."""
 
 import re
 
