@@ -179,6 +179,7 @@ class Findings(NamedTuple):
 def fitted_with(robot, k, c):
     """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles."""
     _checks.instance("robot", robot, Robot)
+    k, c = _checks.positive("k", k), _checks.nonnegative("c", c)
     return replace(robot, k1=k, k2=k, c1=c, c2=c)
 
 

@@ -649,6 +649,20 @@ TABLE = [
         NO_DRIVE,
     ),
     Row(
+        "candidate",
+        choice.candidate,
+        {"robot": ROBOT, "bump": BUMP, "v": [9.0, 10.0]},
+        {"v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], []]},
+        NO_CROSSING,
+    ),
+    Row(
+        "fitted_with",
+        choice.fitted_with,
+        {"robot": ROBOT, "k": 700.0, "c": 1.0},
+        {"k": NOT_POSITIVE, "c": NOT_NONNEGATIVE},
+        {"robot": NOT_A_ROBOT},
+    ),
+    Row(
         "efficient",
         choice.efficient,
         {"costs": np.ones((3, 2))},

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from suspension.choice import cheapest, demands, efficient, exclusion, fitted_with
+from suspension.choice import candidate, cheapest, demands, efficient, exclusion, fitted_with
 from suspension.flight import fly
 from suspension.least_force import margin
 from suspension.problem import DISTANCE
@@ -17,6 +17,7 @@ ASKED = (0.25, 1.2, 5, 10)
 K, C = np.geomspace(150, 1200, 9), np.geomspace(0.4, 4, 7)
 
 
+@pytest.mark.slow
 def test_demands_are_the_worst_of_flights():
     k, c, v = [300, 900], [0.5, 2], [0.8, 3]
     found = demands(ROBOT, BUMP, v, k, c)
@@ -47,6 +48,23 @@ def test_nothing_is_better_than_the_problems_robot_in_every_respect():
     assert (maps.margin >= 0).all() and own.acceleration < 17
 
 
+def test_a_candidate_is_what_its_parts_say():
+    one = candidate(ROBOT, BUMP, ASKED)
+    assert one.robot is ROBOT
+    assert one.margins == {v: margin(ROBOT, BUMP, v) for v in ASKED}
+    for mine, theirs in zip(one.worst, demands(ROBOT, BUMP, ASKED, [800.0], [1.5])):
+        assert np.array_equal(mine, theirs)
+    assert list(one.regimes(ASKED)) == [margin <= 0 for margin in one.margins.values()]
+
+
+def test_who_keeps_contact_costs_less_than_who_loses_it():
+    maps = demands(ROBOT, BUMP, ASKED, K, C)
+    contact, kept = maps.costs[0], maps.margin > 0
+    assert 0 < kept.mean() < 1
+    assert contact[kept].max() < 0 <= contact[~kept].min()
+    assert np.array_equal(maps.costs[1:], [maps.acceleration, maps.compression])
+
+
 def test_best_compromises_are_those_that_nothing_beats():
     costs = np.random.default_rng(1).uniform(size=(60, 3))
     best = efficient(costs)
@@ -57,6 +75,7 @@ def test_best_compromises_are_those_that_nothing_beats():
         )
         assert best[i] != beaten
     assert efficient([[1, 1], [1, 1]]).all()
+    assert list(efficient([[1, 2], [1, 1], [1, 1], [0, 3]])) == [False, True, True, True]
 
 
 @pytest.mark.slow

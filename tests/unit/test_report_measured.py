@@ -125,7 +125,8 @@ def test_the_caption_says_whether_the_line_follows_the_readings():
 
 def test_rest_beyond_the_readings_is_told():
     for name, beyond in (("linear", False), ("soft", True)):
-        _, robot, laws, _, _ = everything(name)
+        fit = FITS[name]
+        robot, laws = Robot(fit.stiffness, fit.stiffness), laws_of(fit.beta, fit.stiffness)
         text = part.statics_table(laws, robot)
         assert ("rests beyond" in text) == beyond == ("metal stop. With a stop" in text)
 
