@@ -78,7 +78,6 @@ DRIVES = {  # every function that drives over the bump, with the rest of its arg
     "overlooked": lambda bump, **way: accuracy.overlooked(ROBOT, bump, [5], **way),
     "just_lost": lambda bump, **way: accuracy.just_lost(ROBOT, bump, [7.9457], 2, **way),
     "missed_dip": lambda bump, **way: accuracy.missed_dip(ROBOT, bump, 5, **way),
-    "candidate": lambda bump, **way: choice.candidate(ROBOT, bump, [5.0, 6.0], **way),
     "candidate": lambda bump, **way: choice.candidate(ROBOT, bump, [7, 9], **way),
     "cheapest": lambda bump, **way: choice.cheapest(ROBOT, bump, **GRID, **way),
     "exclusion": lambda bump, **way: choice.exclusion(ROBOT, bump, **GRID, **way),
