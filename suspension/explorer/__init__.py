@@ -12,6 +12,7 @@ from pathlib import Path
 
 import anywidget
 import ipywidgets
+import numpy as np
 import traitlets
 from IPython.display import display
 
@@ -404,6 +405,8 @@ def explore(
 
 def _speeds(name, values):
     """Speeds as floats; each must be positive."""
+    if isinstance(values, str) or not np.iterable(values):
+        raise ValueError(f"{name} must be a sequence of speeds in m/s, got {values!r}")
     return tuple(float(_checks.positive(name, v)) for v in values)
 
 
@@ -412,7 +415,7 @@ def _ends(speeds):
     try:
         low, high = speeds
     except (TypeError, ValueError):
-        raise ValueError(f"speeds must be a pair (low, high) in m/s, not {speeds!r}") from None
+        raise ValueError(f"speeds must be a pair (low, high) in m/s, got {speeds!r}") from None
     return tuple(map(float, _checks.ends("speeds[0]", low, "speeds[1]", high)))
 
 

@@ -1057,6 +1057,9 @@ def test_by_mouse_in_jupyterlab(browser, lab, name):
             assert control.locator("input[type=range]").bounding_box()["width"] >= 120
             parts = [control.locator(part).bounding_box() for part in (".se-name", ".se-number")]
             edge = control.bounding_box()
+            assert label.bounding_box()["height"] < 30  # one line
+            number = control.locator("input[type=text]")
+            assert number.evaluate("e => e.scrollWidth <= e.clientWidth")
             assert label.evaluate("e => e.scrollWidth <= e.clientWidth + 1 || !e.clientWidth")
             assert parts[0]["x"] + parts[0]["width"] <= parts[1]["x"] + 1  # nothing is covered
             assert parts[1]["x"] + parts[1]["width"] <= edge["x"] + edge["width"] + 1

@@ -983,10 +983,25 @@ TABLE = [
     Row(
         "explore",
         explore,
-        DRIVE | {"dt": 0.01, "k": 800, "scheme": RK4, "time": 0.5, "view": "robot"},
+        DRIVE
+        | {
+            "dt": 0.01,
+            "k": 800,
+            "scheme": RK4,
+            "time": 0.5,
+            "view": "robot",
+            "distance": 2,
+            "speeds": (0.2, 20),
+            "asked": (1, 2),
+            "spring_end": 0.01,
+        },
         {
             "road": NO_ROADS,
             "v": [*but(NOT_POSITIVE, None), 0.01, 100],
+            "distance": but(NOT_POSITIVE, None),
+            "spring_end": but(NOT_POSITIVE, None),
+            "speeds": [5, "fast", (1, 2, 3), (2, 1), (0, 1), (1, np.nan), [None, 3]],
+            "asked": [5, None, "fast", [0], [np.nan], [1, "2"]],
             "dt": [*NOT_POSITIVE, 0.3],
             "k": but(NOT_POSITIVE, None),
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
