@@ -1,8 +1,8 @@
 # make book | pdf | quick | test | mutants | lab | notebooks | bench | requirements | clean
-# Needs Python 3.11, 3.12 or 3.13 and nothing else.
+# Needs Python 3.11, 3.12, 3.13 or 3.14 and nothing else.
 
-PYTHON ?= $(firstword $(foreach name,python3 python3.13 python3.12 python3.11,$(shell \
-    $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 14) and print('$(name)')" 2>/dev/null)))
+PYTHON ?= $(firstword $(foreach name,python3 python3.14 python3.13 python3.12 python3.11,$(shell \
+    $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 15) and print('$(name)')" 2>/dev/null)))
 BIN := .venv/bin
 VENV := .venv/.installed
 PEERS := .venv/bench/.installed
@@ -14,13 +14,15 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
 # Notebooks and tests run side by side: threads for small matrices would only stand in their way.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: book pdf readings lint quick test mutants lab notebooks bench twice requirements clean
+.PHONY: book pdf printer readings lint quick test mutants lab notebooks bench twice requirements clean
 
 book: $(VENV) readings
-	$(BUILD)
+	@echo "Building the book (two minutes) ..."
+	@$(BUILD)
 
 # What the book is about to be made from; an unusable file ends it here.
 readings: $(VENV)
+	@echo "Reading the spring data ..."
 	@$(BIN)/python -m suspension.springs
 
 lint: $(VENV)
@@ -44,15 +46,21 @@ mutants: $(VENV)
 # figures, which are SVG, in notebooks that it trusts.
 lab: $(VENV)
 	@$(BIN)/jupyter trust notebooks/*.ipynb >/dev/null
-	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root)
+	$(BIN)/jupyter lab --config=book/_lab/jupyter_server_config.py --KernelManager.transport_encryption=auto $(if $(filter 0,$(shell id -u)),--allow-root)
 
 # The answer sheet and the whole book, as _build/pdf/*.pdf; needs Chromium.
-pdf: book
-	$(BIN)/python book/paper.py
+pdf: printer book
+	@echo "Printing the book (a minute) ..."
+	@$(BIN)/python book/paper.py
+
+# Before the book is built: what will print it?
+printer: $(VENV)
+	@$(BIN)/python book/paper.py --check
 
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
-	$(BIN)/python notebooks/normalise.py notebooks/*.ipynb
+	@echo "Executing the notebooks (a minute) ..."
+	@$(BIN)/python notebooks/normalise.py notebooks/*.ipynb
 
 # Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
 bench: $(PEERS)
@@ -73,23 +81,25 @@ clean:
 
 # uv installs in seconds what takes pip a minute; where only pip finds packages, pip does it.
 $(VENV): requirements.txt pyproject.toml
-	$(if $(PYTHON),,$(error No Python 3.11, 3.12 or 3.13 found; name one: make PYTHON=/path/to/python3))
-	@$(PYTHON) -c "import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))" || \
-	    { echo "$(PYTHON) is not Python 3.11, 3.12 or 3.13"; exit 1; }
+	$(if $(PYTHON),,$(error No Python 3.11, 3.12, 3.13 or 3.14 found; name one: make PYTHON=/path/to/python3))
+	@$(PYTHON) -c "import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 15))" || \
+	    { echo "$(PYTHON) is not Python 3.11, 3.12, 3.13 or 3.14"; exit 1; }
 	@$(PYTHON) -c "import venv, ensurepip" 2>/dev/null || \
 	    { echo "$(PYTHON) cannot make environments; on Debian: apt install python3-venv"; exit 1; }
-	$(PYTHON) -m venv .venv
+	@echo "Setting up the environment in .venv (a minute) ..."
+	@$(PYTHON) -m venv .venv
 	@sed -n '/^uv==/,/[^\\]$$/p' requirements.txt >.venv/uv.txt
-	$(BIN)/python -m pip install --quiet --require-hashes --requirement .venv/uv.txt && \
+	@$(BIN)/python -m pip install --quiet --require-hashes --requirement .venv/uv.txt && \
 	    $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes --requirement requirements.txt || \
 	    $(BIN)/python -m pip install --quiet --require-hashes --requirement requirements.txt || \
 	    { echo "pip could not install requirements.txt; is there a network?"; exit 1; }
-	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
-	touch $@
+	@$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
 
 $(PEERS): requirements-bench.txt | $(VENV)
-	$(BIN)/python -m venv .venv/bench
-	$(BIN)/uv pip install --quiet --python .venv/bench/bin/python --require-hashes -r requirements.txt
-	$(BIN)/uv pip install --quiet --python .venv/bench/bin/python -r requirements-bench.txt
-	.venv/bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
-	touch $@
+	@echo "Setting up the environment of the benchmark in .venv/bench (a minute) ..."
+	@$(BIN)/python -m venv .venv/bench
+	@$(BIN)/uv pip install --quiet --python .venv/bench/bin/python --require-hashes -r requirements.txt
+	@$(BIN)/uv pip install --quiet --python .venv/bench/bin/python -r requirements-bench.txt
+	@.venv/bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@

@@ -53,7 +53,7 @@ def machine():
     """What the numbers were measured with."""
     model = platform.processor()
     if Path("/proc/cpuinfo").exists():
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
         model = next((x.split(": ")[1] for x in lines if x.startswith("model name")), model)
     names = ["numpy", "scipy", "numba", "control", "diffrax", "jax"]
     return {
@@ -268,13 +268,13 @@ def main():
     parser.add_argument("--book", action="store_true", help="time the book and its tests too")
     parser.add_argument("--draw", action="store_true", help="measure nothing")
     options = parser.parse_args()
-    results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    results = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
     if not options.draw:
         results |= measure()
     if options.book:
         results["book"] = book()
-    RESULTS.write_text(json.dumps(results, indent=1) + "\n")
-    results = json.loads(RESULTS.read_text())
+    RESULTS.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    results = json.loads(RESULTS.read_text(encoding="utf-8"))
     sys.path[:0] = [str(ROOT), str(HERE)]
     import show
 

@@ -29,7 +29,7 @@ def write(results):
     text = "\n\n".join(
         f"<!-- {name} -->\n\n{text}\n\n<!-- end {name} -->" for name, text in sections.items()
     )
-    TABLES.write_text(text + "\n")
+    TABLES.write_text(text + "\n", encoding="utf-8")
     plt.style.use("suspension.figures.report")
     plt.rcParams.update({"svg.hashsalt": "speed", "svg.fonttype": "path"})
     for name, draw in (("speed-work", _draw_work), ("speed-steps", _draw_steps)):

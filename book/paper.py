@@ -178,11 +178,17 @@ def print_pages(browser, names, path):
     return len(PdfReader(path).pages)
 
 
-def main():
-    """Print both; say where they are."""
+def find_browser():
+    """The program that prints; ends with what to do if there is none."""
     program = next(filter(None, map(shutil.which, BROWSERS)), None)
     if program is None:
         sys.exit("Printing needs Chromium or Chrome; on Debian: apt install chromium")
+    return program
+
+
+def main():
+    """Print both; say where they are."""
+    program = find_browser()
     if not (HTML / "index.html").exists():
         sys.exit("There is no book in _build/html: run 'make book' first")
     PDF.mkdir(parents=True, exist_ok=True)
@@ -195,4 +201,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    find_browser() if "--check" in sys.argv else main()

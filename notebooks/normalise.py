@@ -11,6 +11,7 @@ from pathlib import Path
 
 import nbformat
 from nbclient import NotebookClient
+from traitlets.config import Config
 
 KERNEL = {
     "kernelspec": {
@@ -49,13 +50,14 @@ def normalise(notebook):
 
 
 def plain(output, count):
-    """An output without addresses, widgets, and pictures other than figures."""
+    """An output without addresses, widgets, and what else there is of a figure."""
     if "execution_count" in output:
         output.execution_count = count
     if "data" in output:
         output.metadata = nbformat.from_dict({})
         for mime in list(output.data):
-            if mime.startswith(("image/", "application/")) and mime != FIGURE:
+            other = mime.startswith(("image/", "application/")) and mime != FIGURE
+            if other or (mime == "text/html" and FIGURE in output.data):
                 del output.data[mime]
     return output
 
@@ -70,6 +72,8 @@ def main(paths):
             kernel_name="python3",
             coalesce_streams=True,
             resources={"metadata": {"path": str(path.parent)}},
+            # Or the kernel warns that it speaks without encryption.
+            config=Config(KernelManager={"transport_encryption": "auto"}),
         )
         client.execute()
         nbformat.write(normalise(notebook), path)

@@ -12,12 +12,16 @@ What goes beyond:
 - `exact`: the crossing of a bump in closed form
 - `least_force`, `critical`: its least forces, and the speeds at which they vanish
 - `contact`: all that answers "does a wheel leave the ground?", in one place
+- `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
-- `sweep`: very many runs at once
+- `tyre`: wheels that weigh something, and how light they must be
+- `energy`: what the road puts in, and where it goes
+- `spring_law`: the spring with its preload, its curvature and an end stop
+- `sweep`, `extremes`: very many runs at once, on a ground that only pushes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
-- `measured`: the spring with its preload, its curvature and an end stop
+- `measured`: which verdicts such a spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
 and nothing above imports them; `explore`, a picture with sliders, is loaded when it is first used.
@@ -30,6 +34,7 @@ Loss(wheel=2, t=0.177)
 
 from typing import TYPE_CHECKING
 
+from suspension.contact import regimes
 from suspension.critical import critical_speeds
 from suspension.exact import over_bump
 from suspension.flight import fly
@@ -37,6 +42,7 @@ from suspension.least_force import margin
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
+from suspension.similarity import highest_bump
 from suspension.simulation import simulate
 
 __version__ = "2.0.0"
@@ -53,8 +59,10 @@ __all__ = [
     "critical_speeds",
     "explore",
     "fly",
+    "highest_bump",
     "margin",
     "over_bump",
+    "regimes",
     "simulate",
 ]
 

@@ -1,6 +1,6 @@
 """Arguments that cannot mean anything are refused, by name, before any computing starts."""
 
-from math import isfinite, nan
+from math import isfinite, isnan, nan
 from numbers import Number, Real
 from reprlib import repr as short
 
@@ -19,10 +19,14 @@ __all__ = [
     "whole",
 ]
 
+PLAIN = "{} in SI units, without units of its own"
+
 
 def number(name, value, allowed="a finite number", test=lambda x: True):
     """Return `value` as a finite float that passes `test`, else raise ValueError naming it."""
     x = value if isinstance(value, float) else _as_float(value)
+    if isnan(x) and _has_units(value):
+        raise ValueError(f"{name} must be {PLAIN.format('a number')}, got {short(value)}")
     if not (isfinite(x) and test(x)):
         raise ValueError(f"{name} must be {allowed}, got {value!r}")
     return float(x)
@@ -30,6 +34,8 @@ def number(name, value, allowed="a finite number", test=lambda x: True):
 
 def _as_float(value):
     """A real number as a float; anything else as nan."""
+    if _has_units(value):
+        return nan
     scalar = np.ndim(value) == 0 and not _is_masked(value)
     real = scalar and (isinstance(value, Number) or np.asarray(value).dtype.kind in "biuf")
     try:
@@ -41,6 +47,16 @@ def _as_float(value):
 def _is_masked(value):
     # The first condition is quick, and false for nearly everything.
     return isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value)
+
+
+def _has_units(value):
+    """Whether a number, an array, or a part of a list has units of its own.
+
+    Those of pint, unyt and astropy would all be dropped, with a warning at best.
+    """
+    if isinstance(value, list | tuple):
+        return any(map(_has_units, value))
+    return hasattr(value, "units") or hasattr(value, "unit")
 
 
 def positive(name, value):
@@ -97,6 +113,8 @@ def function(name, value, signature):
 
 def array(name, value, shape=None, dtype=float, finite=True):
     """Return `value` as an array of the given shape; None in `shape` stands for any length."""
+    if type(value) is not np.ndarray and _has_units(value):
+        raise ValueError(f"{name} must be {PLAIN.format('an array')}, got {short(value)}")
     if _is_masked(value):
         raise ValueError(f"{name} must have no masked elements, got {short(value)}")
     try:

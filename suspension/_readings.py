@@ -1,48 +1,64 @@
-"""Read a load against displacement test from a file, or say in one line what is wrong with it.
+"""The readings of the spring: which file, refused if it could mislead, and what it holds.
 
-Everything that a reader of numbers tends to guess (an index, a missing value, a decimal comma, a
-matrix in place of a vector) is either told in a note or refused with the file, the line and what
-was expected there.
+Everything about a file up to the regression, which is `springs`; how its text or its MATLAB format
+is read is `_formats`.
 """
 
-import csv
-import re
+import hashlib
+import sys
 from pathlib import Path
-from reprlib import Repr
 from typing import NamedTuple
 
 import numpy as np
-from scipy import io
 
-__all__ = ["COLUMNS", "Readings", "read"]
+from suspension._formats import COLUMNS, read_mat, read_text
+from suspension.problem import DELTA_MAX
 
-COLUMNS = ("delta_over_delta_max", "force")
-DELIMITERS = {",": "commas", ";": "semicolons", "\t": "tabs"}
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+__all__ = ["COLUMNS", "TRUE_STIFFNESS", "Readings", "are_synthetic", "design", "main", "read"]
+
+# Beside the package in a checkout; inside it when it is installed.
+FOLDERS = (
+    Path(__file__).resolve().parents[1] / "data",
+    Path(__file__).resolve().parent / "data",
+)
+FILES = ("spring_data.mat", "spring_data.csv")
+
+# The synthetic stand-in, data/make_spring_data.py: its digest, so that another file under the same
+# name is not taken for it, and the truth behind it.
+SYNTHETIC = "4443053ab6a814e209f91ab03635f51ed49172dc75c624a1e632790b21e09b11"
+TRUE_STIFFNESS = 800.0  # N/m
+
 ROUNDOFF = 1e-9  # how far a displacement may lie outside [0, 1]
-UNITS = {"per cent": 100, "millimetres": 16.5, "centimetres": 1.65, "metres": 0.0165}
+UNITS = {
+    "per cent": 100,
+    "millimetres": 1e3 * DELTA_MAX,
+    "centimetres": 1e2 * DELTA_MAX,
+    "metres": DELTA_MAX,
+}
 LARGEST_FORCE = 200.0  # N, fourteen times the robot's weight
-
-_SHORT = Repr()
-_SHORT.maxstring = 40
-short = _SHORT.repr
 
 
 class Readings(NamedTuple):
-    """Displacements over the largest, forces in N, where each stands, and what was noticed."""
+    """Displacements over the largest, forces in N, the file's name, and what was noticed."""
 
     displacement: np.ndarray
     force: np.ndarray
-    places: list
+    source: str
     notes: tuple
 
+    @property
+    def slope(self):
+        """Slope at zero of the parabola through them, N."""
+        return np.linalg.lstsq(design(self.displacement), self.force)[0][1]
 
-def read(path):
+
+def read(path=None):
     """Read a CSV or MATLAB file.
 
     Parameters
     ----------
-    path : str or Path
+    path : str or Path, optional
+        If not given, the first of `FILES` that one of `FOLDERS` holds.
 
     Returns
     -------
@@ -53,6 +69,8 @@ def read(path):
     ValueError
         In one line: the file, the line (or element) and what was expected.
     """
+    if path is None:
+        path = _default_file()
     try:
         path = Path(path)
         raw = path.read_bytes()
@@ -62,151 +80,29 @@ def read(path):
             f"path must be a readable .csv or .mat file, got {path}: {why.lower()}"
         ) from None
     try:
-        readings = _read_mat(path) if path.suffix.lower() == ".mat" else _read_text(raw)
-        _check_displacements(readings.displacement, readings.places)
-        _check_forces(readings.force, readings.places)
+        columns = read_mat(path, raw) if path.suffix.lower() == ".mat" else read_text(raw)
+        _check_displacements(columns.displacement, columns.places)
+        _check_forces(columns.force, columns.places)
+        readings = Readings(columns.displacement, columns.force, path.name, columns.notes)
+        _check_spring(readings)
     except ValueError as error:
         raise ValueError(f"{path.name}{error}") from None
     return readings
 
 
-# --- text -------------------------------------------------------------------------------------
+def _default_file():
+    for folder in FOLDERS:
+        for name in FILES:
+            if (folder / name).exists():
+                return folder / name
+    raise ValueError(f"path must be given, because {FOLDERS[0]} holds no {' or '.join(FILES)}")
 
 
-def _read_text(raw):
-    lines = _lines(raw)
-    if not lines:
-        raise ValueError(f", line 1: expected the names {' and '.join(COLUMNS)}, got no text")
-    (number, header), *rows = lines
-    delimiter, names = _header(number, header)
-    rows = [(number, *_split(number, line, delimiter)) for number, line in rows]
-    rows = [row for row in rows if any(row[1:])]
-    for number, *fields in rows:
-        if len(fields) != len(names):
-            raise ValueError(_wrong_count(number, fields, names, delimiter))
-    where = [names.index(name) for name in COLUMNS]
-    used = [[fields[i] for i in where] for _, *fields in rows]
-    decimal_commas = any("," in text for row in used for text in row)
-    lines = [f"line {number}" for number, *_ in rows]
-    values = [
-        [_number(name, text, line, decimal_commas) for name, text in zip(COLUMNS, row)]
-        for line, row in zip(lines, used)
-    ]
-    x, force = np.array(values, dtype=float).reshape(-1, 2).T
-    notes = []
-    if decimal_commas:
-        notes.append("decimal commas")
-    if delimiter != ",":
-        notes.append(f"{DELIMITERS[delimiter]} between the fields")
-    surplus = [name for name in names if name not in COLUMNS]
-    if surplus:
-        notes.append(f"columns not used: {', '.join(surplus)}")
-    return Readings(x, force, lines, tuple(notes))
-
-
-def _lines(raw):
-    """Numbered lines without a byte order mark, comments and blank lines."""
-    if b"\0" in raw:
-        raise ValueError(": expected text in UTF-8 (or a .mat file), got binary data")
-    try:
-        text = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = raw.decode("latin-1")  # only names and comments may hold such letters
-    numbered = enumerate(re.split("\r\n|\n|\r", text), 1)
-    return [(n, line) for n, line in numbered if line.strip() and line.lstrip()[0] not in "#%"]
-
-
-def _header(number, line):
-    for delimiter in DELIMITERS:
-        names = _split(number, line, delimiter)
-        if set(COLUMNS) <= set(names):
-            break
-    else:
-        raise ValueError(
-            f", line {number}: expected the names {' and '.join(COLUMNS)}, got {short(line)}"
-        )
-    for name in names:
-        if names.count(name) > 1 or not name:
-            raise ValueError(
-                f", line {number}: expected a different name for each column, got {short(line)}"
-            )
-    return delimiter, names
-
-
-def _split(number, line, delimiter):
-    try:
-        [fields] = csv.reader([line], delimiter=delimiter, skipinitialspace=True, strict=True)
-    except csv.Error as error:
-        raise ValueError(f", line {number}: expected closed quotes, got {error}") from None
-    return [field.strip() for field in fields]
-
-
-def _wrong_count(number, fields, names, delimiter):
-    hint = ""
-    if delimiter == "," and len(fields) == 2 * len(names):
-        hint = " (decimal commas need semicolons between the fields)"
-    return (
-        f", line {number}: expected {len(names)} fields, as in the header, "
-        f"got {len(fields)}: {short(delimiter.join(fields))}{hint}"
-    )
-
-
-def _number(name, text, line, decimal_commas):
-    point, other = (",", ".") if decimal_commas else (".", ",")
-    plain = text.replace(point, ".")
-    if other in text or not NUMBER.fullmatch(plain) or not np.isfinite(float(plain)):
-        kind = "a number with a decimal comma" if decimal_commas else "a number"
-        raise ValueError(
-            f", {line}: expected {kind} for {name}, got {short(text) if text else 'nothing'}"
-        )
-    return float(plain)
-
-
-# --- MATLAB -----------------------------------------------------------------------------------
-
-
-def _read_mat(path):
-    try:
-        table = io.loadmat(path)
-        kinds = {name: kind for name, _, kind in io.whosmat(path)}
-    except NotImplementedError:
-        raise ValueError(": expected a MATLAB file of version 7 or older (save -v7)") from None
-    except Exception:  # the reader fails in many ways on what is no MATLAB file
-        raise ValueError(": expected a MATLAB file, got something else") from None
-    names = [name for name in table if not name.startswith("__")]
-    if not set(COLUMNS) <= set(names):
-        raise ValueError(
-            f": expected the fields {' and '.join(COLUMNS)}, got {short(', '.join(names))}"
-        )
-    x, force = (_vector(name, table[name], kinds[name]) for name in COLUMNS)
-    if len(x) != len(force):
-        raise ValueError(
-            f": expected as many forces as displacements, got {len(force)} and {len(x)}"
-        )
-    places = [f"element {i}" for i in range(1, len(x) + 1)]
-    surplus = [name for name in names if name not in COLUMNS]
-    notes = (f"fields not used: {', '.join(surplus)}",) if surplus else ()
-    return Readings(x, force, places, notes)
-
-
-def _vector(name, value, kind):
-    if np.iscomplexobj(value):
-        kind = "complex"
-    elif kind == "char":
-        kind = "text"
-    numeric = isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and kind != "logical"
-    if not numeric:
-        raise ValueError(f": expected {name} to be a vector of numbers, got one of kind {kind}")
-    if value.size != max(value.shape):
-        shape = " x ".join(map(str, value.shape))
-        raise ValueError(f": expected {name} to be a vector, got an array of {shape}")
-    vector = value.ravel().astype(float)
-    wrong = np.flatnonzero(~np.isfinite(vector))
-    if wrong.size:
-        raise ValueError(
-            f", element {wrong[0] + 1}: expected a number for {name}, got {vector[wrong[0]]}"
-        )
-    return vector
+def are_synthetic(displacement, force):
+    """Whether readings are the synthetic stand-in."""
+    rows = [f"{float(x)},{float(y)}\n" for x, y in zip(displacement, force)]
+    text = "".join([",".join(COLUMNS) + "\n", *rows])
+    return hashlib.sha256(text.encode()).hexdigest() == SYNTHETIC
 
 
 # --- what the numbers must be -----------------------------------------------------------------
@@ -245,3 +141,62 @@ def _check_forces(force, places):
             f", {places[largest]}: expected force in newtons, at most {LARGEST_FORCE:g}, "
             f"got {force[largest]:g}: grams? multiply by 0.00981"
         )
+
+
+def _check_spring(readings):
+    """Refuse displacements without a parabola, and a force that falls."""
+    try:
+        slope = readings.slope
+    except ValueError as error:
+        raise ValueError(f": {error}") from None
+    if not slope > 1e-6 * readings.force.max():
+        raise ValueError(
+            ": expected a force that grows with the displacement, got a slope at zero of "
+            f"{round(slope / DELTA_MAX, 6) + 0.0:.4g} N/m"
+        )
+
+
+def design(x, terms=3):
+    """The matrix whose columns are 1, x, x^2, ..., shape (len(x), terms).
+
+    Raises
+    ------
+    ValueError
+        If the displacements `x` cannot tell so many coefficients apart.
+    """
+    count = {3: "three", 4: "four"}[terms]
+    different = len(np.unique(x))
+    if different < terms:
+        raise ValueError(
+            f"data must have at least {count} points at {count} different displacements to fit "
+            f"{count} coefficients, got {len(x)} points at {different}"
+        )
+    matrix = np.vander(x, terms, increasing=True)
+    if not np.linalg.cond(matrix / np.linalg.norm(matrix, axis=0)) < 1e8:
+        raise ValueError(
+            f"data must have displacements far enough apart to tell {count} coefficients, "
+            f"got {np.min(x):g} to {np.max(x):g}, {np.ptp(x):.2g} apart"
+        )
+    return matrix
+
+
+# --- as a command -----------------------------------------------------------------------------
+
+
+def main(arguments):
+    """Say what a file of readings holds; the exit code is 1 if it cannot be used."""
+    try:
+        readings = read(*arguments[:1])
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
+    x, force, source, notes = readings
+    print(f"file    {source}{' (synthetic)' if are_synthetic(x, force) else ''}")
+    print(f"points  {len(x)}")
+    print(f"range   delta/delta_max from {x.min():g} to {x.max():g}")
+    print(f"        force from {force.min():g} to {force.max():g} N, of the spring pair")
+    stiffness = readings.slope / DELTA_MAX
+    print(f"slope   {stiffness:.1f} N/m at zero, with delta_max = {DELTA_MAX:g} m")
+    for note in notes:
+        print(f"note    {note}")
+    return 0

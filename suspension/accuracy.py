@@ -6,11 +6,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from suspension.contact import exact_loss, margin, normal_forces
+from suspension import _checks
+from suspension.contact import exact_loss, is_lost, margin, normal_forces
 from suspension.course import RK4, make_forcing
 from suspension.exact import over_bump
 from suspension.flight import fly, make_flight_gfunc
-from suspension.least_force import COURSE
+from suspension.least_force import distance_over, duration, sample_count
+from suspension.road import GaussianBump
+from suspension.schemes import Scheme
 from suspension.simulation import simulate
 
 __all__ = [
@@ -23,12 +26,16 @@ __all__ = [
     "event_run",
     "fitted_order",
     "flight_errors",
+    "half_turn",
     "just_lost",
     "missed_dip",
     "overlooked",
     "seen_mode",
     "solve_ivp_errors",
 ]
+
+
+MAX_SAMPLES = 10**5
 
 
 class Errors(NamedTuple):
@@ -40,7 +47,7 @@ class Errors(NamedTuple):
     loss: float
 
 
-def errors(robot, bump, *, v, dt, scheme, tfinal=None):
+def errors(robot, bump, *, v, dt, scheme, tfinal=None, distance=None):
     """Compare a run from equilibrium with the closed form.
 
     Parameters
@@ -50,15 +57,17 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
     v, dt : float
         Speed, m/s, and time step, s.
     scheme : Scheme
-    tfinal : float, optional
-        Final time, s; 1.25 m / v if not given.
+    tfinal, distance : float, optional
+        Final time, s, or how far the run goes, m, as in `suspension.margin`.
 
     Returns
     -------
     Errors
         The run's loss of contact is where a cubic spline through its forces crosses zero.
     """
-    tfinal = COURSE / v if tfinal is None else tfinal
+    _checks.instance("bump", bump, GaussianBump)
+    v = _checks.positive("v", v)
+    tfinal = duration(robot, bump, v, tfinal, distance)
     run = simulate(robot, bump, v=v, dt=dt, tfinal=tfinal, scheme=scheme)
     W, N = _truth(robot, bump, v, run.T)
     loss = exact_loss(robot, bump, v, tfinal)
@@ -70,9 +79,10 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None):
     )
 
 
-def error_table(robot, bump, *, v, dts, scheme):
+def error_table(robot, bump, *, v, dts, scheme, distance=None):
     """`errors` for several time steps `dts`, s, shape (n,): an ndarray, shape (n, 3)."""
-    return np.array([errors(robot, bump, v=v, dt=dt, scheme=scheme) for dt in dts])
+    run = {"v": v, "scheme": scheme, "distance": distance}
+    return np.array([errors(robot, bump, dt=dt, **run) for dt in dts])
 
 
 def _truth(robot, bump, v, T):
@@ -97,6 +107,8 @@ def evaluations(scheme, J):
     >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
     (101, 400)
     """
+    _checks.instance("scheme", scheme, Scheme)
+    J = _checks.whole("J", J, 0)
     starts_at_the_old_end = scheme.c[0] == 0 and not scheme.a[0].any()
     ends_at_the_new_one = np.all(scheme.a[-1] == scheme.b)
     reused = int(starts_at_the_old_end and ends_at_the_new_one)
@@ -123,12 +135,37 @@ def seen_mode(scheme, lam, dts):
     seen : ndarray of complex, shape (n,)
         1/s.
     """
-    dts = np.asarray(dts)
+    _checks.instance("scheme", scheme, Scheme)
+    dts = _steps(dts)
     R = scheme.stability_function(lam * dts)
     return (np.log(np.abs(R)) + 1j * np.unwrap(np.angle(R))) / dts
 
 
-def solve_ivp_errors(robot, bump, *, v, method, tolerances):
+def _steps(dts):
+    dts = _checks.array("dts", dts, (None,))
+    if not (dts > 0).all():
+        raise ValueError(f"dts must be time steps > 0, got {dts[~(dts > 0)][0]:g}")
+    return dts
+
+
+def half_turn(seen, dts):
+    """The first step in which a mode turns by more than half a circle, s; None if there is none.
+
+    Parameters
+    ----------
+    seen : ndarray of complex, shape (n,)
+        The eigenvalue of the mode that a run shows, 1/s: `seen_mode`.
+    dts : array_like, shape (n,)
+        Time steps, s, in order.
+    """
+    angle = seen.imag * np.asarray(dts)
+    after = int(np.argmax(angle > np.pi))
+    if after == 0:
+        return None
+    return float(np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1]))
+
+
+def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
     """Largest error of the normal force by `scipy.integrate.solve_ivp`, and what it cost.
 
     Parameters
@@ -137,58 +174,80 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances):
         As in `solve_ivp`; the implicit ones are given the Jacobian A.
     tolerances : sequence of float
         Values of `rtol`; `atol` is a hundredth of it, since the heights are of that size.
+    distance : float, optional
+        How far the run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
     evaluations, errors : ndarray, shape (len(tolerances),)
         Right-hand sides evaluated, and the error at 201 times in N.
     """
-    T = np.linspace(0, COURSE / v, 201)
+    tfinal = _duration(robot, bump, v, distance)
+    T = np.linspace(0, tfinal, 201)
     N = _truth(robot, bump, v, T)[1]
     options = {} if method in ("RK45", "DOP853") else {"jac": lambda t, w: robot.A}
     costs, worst = [], []
     for rtol in tolerances:
         run = _solve_ivp(
-            robot, bump, v, method=method, rtol=rtol, atol=rtol / 100, t_eval=T, **options
+            robot, bump, v, tfinal, method=method, rtol=rtol, atol=rtol / 100, t_eval=T, **options
         )
         costs.append(run.nfev)
         worst.append(np.abs(normal_forces(robot, bump, v, T, run.y) - N).max())
     return np.array(costs), np.array(worst)
 
 
-def _solve_ivp(robot, bump, v, **options):
+def _duration(robot, bump, v, distance):
+    """How long a run of `solve_ivp` lasts, s, refused if it would take minutes."""
+    tfinal = duration(robot, bump, _checks.positive("v", v), None, distance)
+    swings = sample_count(robot, v, v * tfinal)
+    if not swings <= MAX_SAMPLES:
+        raise ValueError(
+            f"distance must be so short, or v so high, that at most {MAX_SAMPLES} samples follow "
+            f"the swings of the modes, got v={v:g}, distance={v * tfinal:g}: {swings:.3g}"
+        )
+    return tfinal
+
+
+def _solve_ivp(robot, bump, v, tfinal, **options):
     F = make_forcing(robot, bump, v)
-    span = 0, COURSE / v
+    span = 0, tfinal
     return solve_ivp(lambda t, w: robot.A @ w + F(t), span, robot.equilibrium, **options)
 
 
-def disagreement(robot, bump, v):
+def disagreement(robot, bump, v, *, distance=None):
     """Largest difference, in SI units, of the closed form from DOP853 at a tolerance of 1e-12."""
-    T = np.linspace(0, COURSE / v, 101)
+    tfinal = _duration(robot, bump, v, distance)
+    T = np.linspace(0, tfinal, 101)
     tight = {"rtol": 1e-12, "atol": 1e-14, "max_step": bump.sigma / v}
-    run = _solve_ivp(robot, bump, v, method="DOP853", t_eval=T, **tight)
+    run = _solve_ivp(robot, bump, v, tfinal, method="DOP853", t_eval=T, **tight)
     return np.abs(run.y - over_bump(robot, bump, v, T)).max()
 
 
-def event_run(robot, bump, v, **options):
+def event_run(robot, bump, v, *, distance=None, **options):
     """A run of `solve_ivp` that watches both forces, and whether it saw one cross zero.
 
-    `options` go to `solve_ivp`. Returns its result and a bool.
+    `distance` is that of `suspension.margin`; `options` go to `solve_ivp`. Returns its result and
+    a bool.
     """
 
     def force(wheel):
         return lambda t, w: normal_forces(robot, bump, v, [t], w[:, None])[wheel, 0]
 
-    run = _solve_ivp(robot, bump, v, events=[force(0), force(1)], **options)
+    tfinal = _duration(robot, bump, v, distance)
+    run = _solve_ivp(robot, bump, v, tfinal, events=[force(0), force(1)], **options)
     return run, any(times.size for times in run.t_events)
 
 
 def overlooked(robot, bump, speeds, **options):
-    """Those of the `speeds`, m/s, at which `event_run` sees no loss of contact, a list."""
+    """Those of the `speeds`, m/s, at which `event_run` sees no loss of contact, a list.
+
+    `options` are those of `event_run`, `distance` among them.
+    """
     return [v for v in speeds if not event_run(robot, bump, v, **options)[1]]
 
 
-def just_lost(robot, bump, critical, n=40):
+def just_lost(robot, bump, critical, n=40, *, distance=None):
     """Speeds beside the last critical one, up to 5 % away, at which contact is lost.
 
     Parameters
@@ -198,7 +257,10 @@ def just_lost(robot, bump, critical, n=40):
     critical : array_like
         Critical speeds, m/s, in order.
     n : int
-        How many speeds, on the side on which contact is lost.
+        How many speeds, >= 1, on the side on which contact is lost.
+    distance : float, optional
+        How far the run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
@@ -206,21 +268,30 @@ def just_lost(robot, bump, critical, n=40):
         In order, m/s; those at which contact is kept (because another critical speed is near) are
         left out, and without a critical speed there are none.
     """
+    n = _checks.whole("n", n, 1)
+    critical = _checks.array("critical", critical, (None,))
+    distance = distance_over(robot, bump, distance)
+
+    def lost(v):
+        return is_lost(margin(robot, bump, v, distance=distance))
+
     if not len(critical):
         return np.array([])
     away = 0.05 * np.arange(1, n + 1) / (n + 1)
     above, below = (1 + away) * critical[-1], (1 - away[::-1]) * critical[-1]
-    side = above if margin(robot, bump, above[0]) < 0 else below
-    return np.array([v for v in side if margin(robot, bump, v) < 0])
+    side = above if lost(above[0]) else below
+    return np.array([v for v in side if lost(v)])
 
 
-def missed_dip(robot, bump, v, **options):
+def missed_dip(robot, bump, v, *, distance=None, **options):
     """The exact force of the wheel that dips lowest, and the same force at the steps of a run.
 
-    Returns T, N of the exact history and of the steps, each of shape (n,).
+    `distance` and `options` are those of `event_run`. Returns T, N of the exact history and of the
+    steps, each of shape (n,).
     """
-    run, _ = event_run(robot, bump, v, **options)
-    T = np.linspace(0, COURSE / v, 20001)
+    distance = distance_over(robot, bump, distance)
+    run, _ = event_run(robot, bump, v, distance=distance, **options)
+    T = np.linspace(0, distance / v, 20001)
     N = _truth(robot, bump, v, T)[1]
     wheel = N.min(axis=1).argmin()
     return T, N[wheel], run.t, normal_forces(robot, bump, v, run.t, run.y)[wheel]
@@ -229,12 +300,23 @@ def missed_dip(robot, bump, v, **options):
 def fitted_order(dts, errors):
     """Slope of log(error) against log(dt): the observed order of convergence.
 
-    Errors that are not finite are left out; nan if fewer than two are left.
+    Parameters
+    ----------
+    dts : array_like, shape (n,)
+        Time steps, s, > 0.
+    errors : array_like, shape (n,)
+        Those that are zero or not finite are left out.
+
+    Returns
+    -------
+    order : float
+        nan if fewer than two errors are left.
 
     >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
-    dts, errors = np.asarray(dts), np.asarray(errors)
+    dts = _steps(dts)
+    errors = _checks.array("errors", errors, dts.shape, finite=False)
     good = np.isfinite(errors) & (errors > 0)
     if good.sum() < 2:
         return np.nan
@@ -264,7 +346,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
     v, tfinal : float
         Speed, m/s, and final time, s.
     steps : sequence of int
-        Numbers of steps from 0 to `tfinal`.
+        Numbers of steps from 0 to `tfinal`, >= 1.
 
     Returns
     -------
@@ -272,6 +354,7 @@ def flight_errors(robot, road, *, v, tfinal, steps):
         Largest error of a state component relative to its largest value in the run: for steps
         that ignore the switches, and for steps fitted between them.
     """
+    steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)
     scale = np.abs(flight.W).max(axis=1)
     gfunc = make_flight_gfunc(robot, road)

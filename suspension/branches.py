@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
+from suspension import _checks
 from suspension.critical import critical_speeds, critical_stiffness
-from suspension.least_force import margin
+from suspension.least_force import distance_over, margin
 
 __all__ = ["Branch", "End", "branches"]
 
@@ -84,7 +85,7 @@ class Branch:
         return float(min(speeds)), float(max(speeds))
 
 
-def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
+def branches(robot, bump, vmin, vmax, kmin, kmax, check=None, *, distance=None):
     """Every branch of ``margin(v, k) = 0``, k1 = k2 = k, in a range of speeds and stiffnesses.
 
     Every curve that reaches an edge of the ranges is found there. A closed curve is found if it
@@ -102,26 +103,42 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
         Range of stiffnesses, N/m.
     check : float, optional
         A stiffness in between, N/m.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within (`distance_over`).
 
     Returns
     -------
     branches : list of Branch
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or `critical_speeds` or `critical_stiffness` refuse.
     """
+    distance = distance_over(robot, bump, distance)
+    vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+    kmin, kmax = _checks.ends("kmin", kmin, "kmax", kmax)
+    if check is not None:
+        check = _checks.number(
+            "check", check, f"from kmin = {kmin:g} to kmax = {kmax:g}", lambda k: kmin <= k <= kmax
+        )
 
     def with_stiffness(k):
         return replace(robot, k1=k, k2=k)
 
     def margin_at(point):
-        return margin(with_stiffness(np.exp(point.imag)), bump, np.exp(point.real))
+        k, v = np.exp(point.imag), np.exp(point.real)
+        return margin(with_stiffness(k), bump, v, distance=distance)
 
     corners = np.log(vmin) + 1j * np.log(kmin), np.log(vmax) + 1j * np.log(kmax)
     step = min(STEP, (corners[1] - corners[0]).imag / 6)
     seeds = []  # where a curve enters, and which way is in
     for corner, k, heading in zip(corners, (kmin, kmax), (UP, -UP)):
-        speeds = critical_speeds(with_stiffness(k), bump, vmin, vmax)
+        speeds = critical_speeds(with_stiffness(k), bump, vmin, vmax, distance=distance)
         seeds += [(complex(np.log(v), corner.imag), heading) for v in speeds]
     for corner, v, heading in zip(corners, (vmin, vmax), (RIGHT, -RIGHT)):
-        stiffnesses = critical_stiffness(with_stiffness(kmin), bump, v, kmin, kmax)
+        softest = with_stiffness(kmin)
+        stiffnesses = critical_stiffness(softest, bump, v, kmin, kmax, distance=distance)
         seeds += [(complex(corner.real, np.log(k)), heading) for k in stiffnesses]
 
     exits = np.array([start for start, _ in seeds])
@@ -136,7 +153,7 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None):
         used.add(i if j is None else j)
         found += _cut(margin_at, curve, corners)
     if check is not None:
-        for v in critical_speeds(with_stiffness(check), bump, vmin, vmax):
+        for v in critical_speeds(with_stiffness(check), bump, vmin, vmax, distance=distance):
             near = [speed for b in found if (speed := b.speed(check)) is not None]
             if not any(abs(speed / v - 1) < 1e-7 for speed in near):
                 start = complex(np.log(v), np.log(check))

@@ -12,15 +12,21 @@ import numpy as np
 from scipy.optimize import minimize
 
 from suspension import _checks
-from suspension.least_force import margin
+from suspension.contact import Regimes, regimes
+from suspension.least_force import distance_over, margin
+from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
-from suspension.sweep import peaks
+from suspension.sweep import drive
 
 __all__ = [
+    "Candidate",
     "Choice",
     "Demands",
     "Exclusion",
+    "Findings",
+    "Ride",
+    "candidate",
     "cheapest",
     "demands",
     "efficient",
@@ -28,20 +34,40 @@ __all__ = [
     "fitted_with",
 ]
 
-STEPS = 1000  # of a run, in maps
 MAX_MARGINS = 10**4  # exact ones: some ten seconds
 MAX_RUNS = 10**5  # all at once: as long
+MAX_CANDIDATES = 5000  # for the best compromises: a second or two, if none beats another
 STARTS = 2  # points of the grid from which the search begins
 EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
 
 
 class Demands(NamedTuple):
-    """The worst over several speeds, for each suspension of a map, shape (m, n): margin, N,
-    largest acceleration, m/s^2, and largest compression, m."""
+    """The worst over several speeds, for each suspension of a map, on a ground that only pushes.
+
+    Attributes
+    ----------
+    margin : ndarray, shape (m, n)
+        Least margin, N; 0 where contact is lost.
+    acceleration, compression : ndarray, shape (m, n)
+        Largest acceleration of the body, m/s^2, and compression of a spring, m.
+    air : ndarray, shape (m, n)
+        The part of the way in which a wheel is in the air, at most.
+    """
 
     margin: np.ndarray
     acceleration: np.ndarray
     compression: np.ndarray
+    air: np.ndarray
+
+    @property
+    def costs(self):
+        """What should be small, shape (3, m, n): want of contact, acceleration, compression.
+
+        Who keeps contact is the better the larger the margin; who loses it is worse than all of
+        these, and the worse the more of the way a wheel is in the air.
+        """
+        contact = np.where(self.margin > 0, -self.margin, self.air)
+        return np.array([contact, self.acceleration, self.compression])
 
 
 class Choice(NamedTuple):
@@ -50,6 +76,26 @@ class Choice(NamedTuple):
     robot: Robot
     distance: float
     margin: float
+
+
+class Candidate(NamedTuple):
+    """A suspension that is looked at closely: see `candidate`.
+
+    Attributes
+    ----------
+    robot : Robot
+    margins : dict of float to float
+        Exact margins at the asked speeds, N; after a loss only their sign means something.
+    worst : Demands
+        Of the asked speeds, shape (1, 1).
+    regimes : Regimes
+        Where contact is kept and lost from the lowest to the highest of them.
+    """
+
+    robot: Robot
+    margins: dict
+    worst: Demands
+    regimes: Regimes
 
 
 class Exclusion(NamedTuple):
@@ -75,12 +121,69 @@ class Exclusion(NamedTuple):
     points: int
 
 
+class Ride(NamedTuple):
+    """A ride on a rough road.
+
+    Attributes
+    ----------
+    name : str
+        Of the suspension.
+    v : float
+        m/s.
+    force, acceleration, pitch : float
+        Root mean squares of the linear motion, N, m/s^2 and rad.
+    expected, counted : float
+        The part of the time in which the rear wheel would have to be pulled.
+    flights : int
+        How often a wheel leaves the ground.
+    air : float
+        The part of the time in which the rear wheel is in the air.
+    """
+
+    name: str
+    v: float
+    force: float
+    acceleration: float
+    pitch: float
+    expected: float
+    counted: float
+    flights: int
+    air: float
+
+
+class Findings(NamedTuple):
+    """What Part IX found.
+
+    Attributes
+    ----------
+    least, reserved, wide : Choice or None
+        The cheapest for contact at the asked speeds, with a reserve, and in their whole range.
+    reserve : float
+        N.
+    excluded : Exclusion
+        Of the springs on which the robot rests within the measured displacements.
+    candidates : dict of str to Candidate
+        The present suspension, and those of the choices that are others.
+    rides : sequence of Ride
+    """
+
+    least: Choice | None
+    reserved: Choice | None
+    wide: Choice | None
+    reserve: float
+    excluded: Exclusion
+    candidates: dict
+    rides: tuple
+
+
 def fitted_with(robot, k, c):
     """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles."""
+    _checks.instance("robot", robot, Robot)
+    k, c = _checks.positive("k", k), _checks.nonnegative("c", c)
     return replace(robot, k1=k, k2=k, c1=c, c2=c)
 
 
-def demands(robot, road, v, k, c):
+def demands(robot, road, v, k, c, *, distance=None):
     """What suspensions give and ask for, the worst over several speeds: maps for a choice.
 
     Parameters
@@ -93,27 +196,59 @@ def demands(robot, road, v, k, c):
         m/s, > 0.
     k, c : array_like, shapes (n,) and (m,)
         Stiffness, N/m, and damping, N s/m, of both axles, > 0 and in order.
+    distance : float, optional
+        How far each run goes, m, as in `suspension.sweep.drive`.
 
     Returns
     -------
     Demands
-        From runs of 1000 steps each, all at once (`suspension.sweep.peaks`): sampled, not exact.
+        From runs on a ground that only pushes, all at once (`suspension.sweep.drive`).
 
     Raises
     ------
     ValueError
-        If an argument is out of its range, or all together are more than 10^5 runs.
+        If an argument is out of its range, all together are more than 10^5 runs, or `drive` refuses
+        the runs.
     """
     _checks.instance("robot", robot, Robot)
     v, k, c = _grid(v, k, c, MAX_RUNS)
     robots = np.array(
         [[fitted_with(robot, stiffness, damping) for stiffness in k] for damping in c]
     )
-    found = peaks(robots[:, :, None], road, v, steps=STEPS)
+    found = drive(robots[:, :, None], road, v, distance=distance)
+    part = found.airtime.max(axis=0) * v / (DISTANCE if distance is None else distance)
     return Demands(
-        found.force.min(axis=(-2, -1)),
+        found.margin.min(axis=-1),
         found.acceleration.max(axis=-1),
-        found.compression.max(axis=(-2, -1)),
+        found.compression.max(axis=-1),
+        part.max(axis=-1),
+    )
+
+
+def candidate(robot, bump, v, *, distance=None):
+    """What a suspension gives and asks for at several speeds, and where it keeps contact.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    v : array_like, shape (speeds,)
+        m/s, > 0, two or more.
+    distance : float, optional
+        How far each run goes, m, as in `suspension.contact.margin`.
+
+    Returns
+    -------
+    Candidate
+    """
+    _own(robot, bump)
+    k, c = [robot.k1], [robot.c1]
+    v, _, _ = _grid(v, k, c)
+    return Candidate(
+        robot,
+        {float(u): margin(robot, bump, u, distance=distance) for u in v},
+        demands(robot, bump, v, k, c, distance=distance),
+        regimes(robot, bump, v.min(), v.max(), distance=distance),
     )
 
 
@@ -123,7 +258,7 @@ def efficient(costs):
     Parameters
     ----------
     costs : array_like, shape (n, criteria)
-        Less is better.
+        Less is better; n is at most 5000.
 
     Returns
     -------
@@ -135,14 +270,21 @@ def efficient(costs):
     array([ True,  True,  True, False])
     """
     costs = _checks.array("costs", costs, (None, None))
-    best = np.ones(len(costs), dtype=bool)
-    for i, cost in enumerate(costs):
-        as_good = (costs <= cost).all(axis=1)
-        best[i] = not (as_good & (costs < cost).any(axis=1)).any()
+    if len(costs) > MAX_CANDIDATES:
+        raise ValueError(f"costs must be of at most {MAX_CANDIDATES} candidates, got {len(costs)}")
+    best, front, size = np.zeros(len(costs), dtype=bool), np.empty_like(costs), 0
+    # In this order no later candidate beats an earlier one, and who is beaten at all is beaten by
+    # one of the front.
+    for i in np.lexsort(costs.T[::-1]) if costs.size else range(len(costs)):
+        so_far, cost = front[:size], costs[i]
+        best[i] = not ((so_far <= cost).all(axis=1) & (so_far < cost).any(axis=1)).any()
+        if best[i]:
+            front[size] = cost
+            size += 1
     return best
 
 
-def cheapest(robot, bump, v, k, c, reserve=0.0):
+def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     """The least change of stiffness and damping that keeps contact at all of several speeds.
 
     The suspensions of the grid are tried by exact margins, those near the robot's first. From the
@@ -160,6 +302,9 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
         Stiffness, N/m, and damping, N s/m, > 0, of the grid, each in order.
     reserve : float
         What the margin must be at every speed, N.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
@@ -182,17 +327,21 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     start = _own(robot, bump)
     v, k, c = _grid(v, k, c)
     reserve = _checks.number("reserve", reserve)
+    distance = distance_over(robot, bump, distance)
+
+    def margin_of(fitted, speed):
+        return margin(fitted, bump, speed, distance=distance)
 
     # The speed with the least margin comes first: most suspensions fail there.
-    v = sorted(v, key=lambda speed: margin(robot, bump, speed))
+    v = sorted(v, key=lambda speed: margin_of(robot, speed))
 
     def spare(x):
         changed = fitted_with(robot, *np.exp(x))
-        return np.array([margin(changed, bump, speed) for speed in v]) - reserve
+        return np.array([margin_of(changed, speed) for speed in v]) - reserve
 
     def keeps(x):
         changed = fitted_with(robot, *np.exp(x))
-        return all(margin(changed, bump, speed) >= reserve for speed in v)
+        return all(margin_of(changed, speed) >= reserve for speed in v)
 
     if keeps(start):
         return Choice(robot, 0.0, float(spare(start).min() + reserve))
@@ -219,7 +368,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0):
     return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
 
 
-def exclusion(robot, bump, v, k, c):
+def exclusion(robot, bump, v, k, c, *, distance=None):
     """Is contact lost at one of several speeds, at least, whatever the suspension?
 
     The worst margin is a continuous function of ln k and ln c. Between points of a grid it can
@@ -227,7 +376,7 @@ def exclusion(robot, bump, v, k, c):
 
     Parameters
     ----------
-    robot, bump, v, k, c
+    robot, bump, v, k, c, distance
         As in `cheapest`; the grid has two points and more each way.
 
     Returns
@@ -239,9 +388,13 @@ def exclusion(robot, bump, v, k, c):
     v, k, c = _grid(v, k, c)
     if min(len(k), len(c)) < 2:
         raise ValueError(f"k and c must have two values and more, got {len(k)} and {len(c)}")
-    worst = np.array(
-        [[min(margin(fitted_with(robot, a, b), bump, u) for u in v) for a in k] for b in c]
-    )
+    distance = distance_over(robot, bump, distance)
+
+    def worst_margin(k, c):
+        fitted = fitted_with(robot, k, c)
+        return min(margin(fitted, bump, speed, distance=distance) for speed in v)
+
+    worst = np.array([[worst_margin(a, b) for a in k] for b in c])
     x, y = np.log(k), np.log(c)
     # At each point the steepest chords towards its neighbours, in both directions.
     across = np.pad(np.abs(np.diff(worst, axis=1) / np.diff(x)), ((0, 0), (1, 1)))

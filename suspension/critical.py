@@ -7,7 +7,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.optimize import brentq
 
 from suspension import _checks
-from suspension.least_force import margin, sample_count
+from suspension.least_force import distance_over, margin, sample_count
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
@@ -17,7 +17,14 @@ RESOLUTION = 1e-5  # two critical values closer to each other than this (relativ
 MAX_SAMPLES = 4 * 10**6  # of the forces, in all margins on the first grid: some ten seconds
 
 
-def critical_speeds(robot: Robot, bump: GaussianBump, vmin: float, vmax: float) -> np.ndarray:
+def critical_speeds(
+    robot: Robot,
+    bump: GaussianBump,
+    vmin: float,
+    vmax: float,
+    *,
+    distance: float | None = None,
+) -> np.ndarray:
     """Every speed at which the margin is zero: only there can the verdict change.
 
     Parameters
@@ -26,6 +33,8 @@ def critical_speeds(robot: Robot, bump: GaussianBump, vmin: float, vmax: float) 
     bump : GaussianBump
     vmin, vmax : float
         Range of speeds, m/s, 0 < vmin < vmax.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within (`distance_over`).
 
     Returns
     -------
@@ -35,8 +44,8 @@ def critical_speeds(robot: Robot, bump: GaussianBump, vmin: float, vmax: float) 
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the search would need more than 4 million samples
-        of the forces; the number is told.
+        If an argument is out of its range; if `suspension.least_force.distance_over` refuses; or if
+        the search would need more than 4 million samples of the forces; the number is told.
 
     Examples
     --------
@@ -45,15 +54,14 @@ def critical_speeds(robot: Robot, bump: GaussianBump, vmin: float, vmax: float) 
     >>> critical_speeds(Robot(800, 800), GaussianBump(), 0.1, 30).round(4)
     array([ 0.4367,  7.9457, 20.4232])
     """
-    _checks.instance("robot", robot, Robot)
-    _checks.instance("bump", bump, GaussianBump)
+    distance = distance_over(robot, bump, distance)
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
-    cost = np.mean([sample_count(robot, v) for v in np.geomspace(vmin, vmax)])
-    x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost)
-    return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x)), x))
+    cost = np.mean([sample_count(robot, v, distance) for v in np.geomspace(vmin, vmax)])
+    x = _logarithmic(robot, bump, "vmin and vmax", vmin, vmax, cost, distance)
+    return np.exp(zeros(lambda x: margin(robot, bump, np.exp(x), distance=distance), x))
 
 
-def critical_stiffness(robot, bump, v, kmin, kmax):
+def critical_stiffness(robot, bump, v, kmin, kmax, *, distance=None):
     """Every rear stiffness k1 at which the margin is zero, when k2 / k1 stays as it is.
 
     Parameters
@@ -64,6 +72,8 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
         Speed, m/s, > 0.
     kmin, kmax : float
         Range of k1, N/m, 0 < kmin < kmax.
+    distance : float, optional
+        As in `critical_speeds`.
 
     Returns
     -------
@@ -82,20 +92,20 @@ def critical_stiffness(robot, bump, v, kmin, kmax):
     >>> critical_stiffness(Robot(800, 800), GaussianBump(), 5, 200, 2000).round(2)
     array([572.83])
     """
-    _checks.instance("robot", robot, Robot)
-    _checks.instance("bump", bump, GaussianBump)
+    distance = distance_over(robot, bump, distance)
     v = _checks.positive("v", v)
     kmin, kmax = _checks.ends("kmin", kmin, "kmax", kmax)
 
     def with_stiffness(k1):
         return replace(robot, k1=k1, k2=k1 * (robot.k2 / robot.k1))
 
-    cost = np.mean([sample_count(with_stiffness(k), v) for k in np.geomspace(kmin, kmax)])
-    x = _logarithmic(robot, bump, "kmin and kmax", kmin, kmax, cost)
-    return np.exp(zeros(lambda x: margin(with_stiffness(np.exp(x)), bump, v), x))
+    stiffnesses = np.geomspace(kmin, kmax)
+    cost = np.mean([sample_count(with_stiffness(k), v, distance) for k in stiffnesses])
+    x = _logarithmic(robot, bump, "kmin and kmax", kmin, kmax, cost, distance)
+    return np.exp(zeros(lambda x: margin(with_stiffness(np.exp(x)), bump, v, distance=distance), x))
 
 
-def sensitivity(robot, bump, v, *names):
+def sensitivity(robot, bump, v, *names, distance=None):
     """How the margin answers to parameters, ``d margin / d ln p``, all of `names` scaled alike.
 
     A critical speed moves by ``d ln v / d ln p = -sensitivity(..., p) / sensitivity(..., "v")``.
@@ -108,13 +118,15 @@ def sensitivity(robot, bump, v, *names):
         Speed, m/s, > 0.
     *names : str
         Parameters of the robot, such as ``"k1", "k2"``, or ``"v"``.
+    distance : float, optional
+        As in `critical_speeds`.
 
     Returns
     -------
     sensitivity : float
         In N: a hundredth of it is the change that one percent makes.
     """
-    _checks.instance("robot", robot, Robot)
+    distance = distance_over(robot, bump, distance)
     v = _checks.positive("v", v)
     if not names:
         raise ValueError("names must hold at least one parameter, got none")
@@ -125,7 +137,8 @@ def sensitivity(robot, bump, v, *names):
     def scaled_margin(factor):
         values = {name: factor * getattr(robot, name) for name in names if name != "v"}
         speed = factor * v if "v" in names else v
-        return margin(replace(robot, **values), bump, speed)
+        # The run is given by its time, which a wheelbase a little longer cannot refuse.
+        return margin(replace(robot, **values), bump, speed, distance / speed)
 
     step = 1e-5
     return (scaled_margin(1 + step) - scaled_margin(1 - step)) / (2 * step)
@@ -173,7 +186,7 @@ def _largest_nearby(slope):
     return sliding_window_view(padded, 5).max(axis=1)
 
 
-def _logarithmic(robot, bump, names, low, high, cost):
+def _logarithmic(robot, bump, names, low, high, cost, distance):
     """A grid in ln v or ln k, dense enough for every ripple; `cost` is that of one value in it.
 
     The margin ripples with the phase omega (L1 + L2) / v that a mode gains between the wheels. A
@@ -187,6 +200,7 @@ def _logarithmic(robot, bump, names, low, high, cost):
         raise ValueError(
             f"{names} must be so close to each other, and {names.split()[0]} so far from zero, "
             f"that at most {MAX_SAMPLES:.0e} samples of the forces are needed, "
-            f"got {low:g} and {high:g} with sigma={bump.sigma:g}: {needed:.2g}"
+            f"got {low:g} and {high:g} with sigma={bump.sigma:g}, distance={distance:g}: "
+            f"{needed:.2g}"
         )
     return np.linspace(np.log(low), np.log(high), 2 + int(count))

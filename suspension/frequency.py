@@ -14,9 +14,12 @@ from suspension import _checks
 from suspension.road import N0, RoughRoad
 from suspension.robot import Robot
 
-__all__ = ["Response", "Spread", "response", "rms", "spectral_rms", "steady_start"]
+__all__ = ["Response", "Spread", "response", "rms", "spectral_rms", "speed_in_step", "steady_start"]
 
 MAX_WAVES = 10**6  # solved for at once: a second
+# Closer to a mode's own frequency, relative to it, roundoff decides how far the robot swings.
+NO_DAMPING = 1e-12
+ORDER = 8  # of the Gauss-Legendre rule between two nodes
 
 
 class Response(NamedTuple):
@@ -67,8 +70,8 @@ def response(robot, v, wavenumber):
     Raises
     ------
     ValueError
-        If an argument is out of its range, there are more than 10^6 waves, or one of them swings
-        at the very frequency of an undamped mode.
+        If an argument is out of its range, so large that the motion is no number, there are more
+        than 10^6 waves, or one of them swings at the very frequency of an undamped mode.
 
     Examples
     --------
@@ -81,18 +84,27 @@ def response(robot, v, wavenumber):
     n = _checks.array("wavenumber", wavenumber, (None,))
     if n.size > MAX_WAVES:
         raise ValueError(f"wavenumber must hold at most {MAX_WAVES} waves, got {n.size}")
-    iw = 2j * np.pi * v * n
-    e = np.exp(2j * np.pi * np.outer(robot.arms, n))
-    u = np.concatenate([e, iw * e])
-    try:
+    with np.errstate(over="ignore", invalid="ignore"):  # told below, by name
+        iw = 2j * np.pi * v * n
+        off = np.abs(iw[:, None] - robot.eigenvalues) <= NO_DAMPING * np.abs(robot.eigenvalues)
+        if off.any():
+            at = n[off.any(axis=1)][0]
+            raise ValueError(
+                "v and wavenumber must keep off the frequencies of undamped modes, "
+                f"got v={v:g}, wavenumber={at:g}"
+            )
+        e = np.exp(2j * np.pi * np.outer(robot.arms, n))
+        u = np.concatenate([e, iw * e])
         w = np.linalg.solve(iw[:, None, None] * np.eye(4) - robot.A, (robot.B @ u).T[..., None])
-    except np.linalg.LinAlgError:
+        w = w[..., 0].T
+        ends = w[0] + np.outer(robot.arms, w[2])
+        found = Response(w, robot.C @ w + robot.D @ u, e - ends, iw**2 * w[0])
+    if not all(np.isfinite(part).all() for part in found):
         raise ValueError(
-            f"v and wavenumber must keep off the frequencies of undamped modes, got v={v:g}"
-        ) from None
-    w = w[..., 0].T
-    ends = w[0] + np.outer(robot.arms, w[2])
-    return Response(w, robot.C @ w + robot.D @ u, e - ends, iw**2 * w[0])
+            "v and wavenumber must be so small that the motion is finite, "
+            f"got v={v:g}, wavenumber to {np.abs(n).max():g}"
+        )
+    return found
 
 
 def steady_start(robot, road, v):
@@ -129,11 +141,16 @@ def rms(robot, road, v):
     Spread
     """
     _checks.instance("road", road, RoughRoad)
-    return _spread(response(robot, v, road.wavenumbers), np.abs(road.amplitudes) ** 2 / 2)
+    with np.errstate(over="ignore"):  # told by name
+        power = np.abs(road.amplitudes) ** 2 / 2
+    return _spread(response(robot, v, road.wavenumbers), power, "road")
 
 
-def spectral_rms(robot, v, roughness, longest, shortest, points=20001):
+def spectral_rms(robot, v, roughness, longest, shortest, points=20000):
     """The same of all roads of a class at once, ``sigma^2 = integral of |G(n)|^2 Gd(n) dn``.
+
+    The less a mode is damped, the narrower is its resonance; the nodes of the rule close in on it
+    as much.
 
     Parameters
     ----------
@@ -145,30 +162,90 @@ def spectral_rms(robot, v, roughness, longest, shortest, points=20001):
     longest, shortest : float
         The ends of the band of wavelengths, m.
     points : int
-        Of the trapezoidal rule in ln n, 2 to 10^6.
+        Of the Gauss-Legendre rule in ln n, 2 to 10^6, beside those at the resonances.
 
     Returns
     -------
     Spread
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, the waves are so long or short that a mean square is no
+        number, or the band holds the frequency of an undamped mode, where it is infinite.
     """
+    _checks.instance("robot", robot, Robot)
+    v = _checks.number("v", v)
     roughness = _checks.nonnegative("roughness", roughness)
     shortest, longest = _checks.ends("shortest", shortest, "longest", longest)
     points = _checks.whole("points", points, 2)
     if points > MAX_WAVES:
         raise ValueError(f"points must be at most {MAX_WAVES}, got {points}")
-    x = np.linspace(-np.log(longest), -np.log(shortest), points)
-    n = np.exp(x)
-    weights = np.full(len(x), x[1] - x[0])
-    weights[[0, -1]] /= 2
-    return _spread(response(robot, v, n), weights * n * roughness * (N0 / n) ** 2)
+    low, high = -np.log(longest), -np.log(shortest)
+    edges = [np.linspace(low, high, 1 + max(1, points // ORDER))]
+    for place, width in _resonances(robot, v):
+        if width <= NO_DAMPING and low <= place <= high:
+            raise ValueError(
+                "robot must have damping, or longest and shortest leave out its undamped mode at a "
+                f"wavelength of {np.exp(-place):.4g} m: the mean square is infinite, got "
+                f"c1={robot.c1:g}, c2={robot.c2:g}, longest={longest:g}, shortest={shortest:g}"
+            )
+        edges.append(_closing_in(place, max(width, NO_DAMPING), low, high))
+    x, weights = _gauss_legendre(np.unique(np.concatenate(edges)))
+    with np.errstate(over="ignore", invalid="ignore"):  # told by name
+        n = np.exp(x)
+        power = weights * n * roughness * (N0 / n) ** 2
+    return _spread(response(robot, v, n), power, "roughness, longest and shortest")
 
 
-def _spread(G, power):
+def _resonances(robot, v):
+    """Where in ln n the response has its poles, and how far off the real axis: pairs."""
+    for eigenvalue in robot.eigenvalues if v else []:
+        if eigenvalue.imag >= 0:
+            place = np.log(np.abs(eigenvalue / (2 * np.pi * v)))
+            yield place, max(float(np.angle(eigenvalue / 1j)), 0.0)
+
+
+def _closing_in(place, width, low, high):
+    """Nodes from `low` to `high` whose distances near `place` shrink to a fifth of a width."""
+    ends = np.arcsinh((np.array([low, high]) - place) / width)
+    s = np.linspace(*ends, 2 + int(5 * (ends[1] - ends[0])))
+    return np.clip(place + width * np.sinh(s), low, high)
+
+
+def _gauss_legendre(edges):
+    """Points and weights of a rule between every two edges."""
+    points, weights = np.polynomial.legendre.leggauss(ORDER)
+    half = np.diff(edges)[:, None] / 2
+    return (edges[:-1, None] + half * (1 + points)).ravel(), (half * weights).ravel()
+
+
+def _spread(G, power, names):
     """Root mean squares of outputs `G` per metre, for waves of a given mean square, m^2."""
 
     def root(amplitude):
         return np.sqrt(np.abs(amplitude) ** 2 @ power)
 
-    return Spread(
-        root(G.force), root(G.compression), float(root(G.state[2])), float(root(G.acceleration))
-    )
+    with np.errstate(over="ignore", invalid="ignore"):
+        parts = map(root, (G.force, G.compression, G.state[2], G.acceleration))
+        force, compression, pitch, acceleration = parts
+    if not np.isfinite([*force, *compression, pitch, acceleration]).all():
+        raise ValueError(f"{names} must give finite mean squares, got {force} N")
+    return Spread(force, compression, float(pitch), float(acceleration))
+
+
+def speed_in_step(robot):
+    """The speed at which one heave period passes between the wheels, m/s; None without a swing.
+
+    There the rear wheel meets what the front wheel met in step with the heave that it left behind.
+
+    Examples
+    --------
+    >>> round(speed_in_step(Robot(800, 800)), 3)
+    1.129
+    """
+    _checks.instance("robot", robot, Robot)
+    heave = robot.eigenvalues[robot.heave_share.argmax()]
+    if heave.imag == 0:
+        return None
+    return float((robot.L1 + robot.L2) * abs(heave.imag) / (2 * np.pi))

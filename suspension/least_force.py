@@ -10,13 +10,16 @@ import numpy as np
 
 from suspension import _checks
 from suspension.exact import Crossing
+from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
 __all__ = [
-    "COURSE",
     "Minimum",
+    "distance_over",
+    "duration",
     "exact_forces",
+    "forces_and_minima",
     "margin",
     "minima",
     "roundoff",
@@ -24,7 +27,7 @@ __all__ = [
     "turning_points",
 ]
 
-COURSE = 1.25  # m, the distance of the problem's runs: they end at 1.25 / v
+CLEAR = 4.0  # sigmas from its centre, where a Gaussian bump has 0.03 % of its height left
 MAX_SAMPLES = 2 * 10**6  # a few seconds
 CHUNK = 2**16  # samples worked on at a time, to bound the memory
 DIGITS_LOST = 1e-6  # the largest rounding error allowed, relative to the forces
@@ -40,11 +43,18 @@ class Minimum(NamedTuple):
     X: float
 
 
-def margin(robot: Robot, bump: GaussianBump, v: float, tfinal: float | None = None) -> float:
+def margin(
+    robot: Robot,
+    bump: GaussianBump,
+    v: float,
+    tfinal: float | None = None,
+    *,
+    distance: float | None = None,
+) -> float:
     """The least normal force of both wheels on the way over the bump, exact.
 
-    The robot starts at rest, in equilibrium, and keeps contact if and only if the margin is
-    positive.
+    The robot starts at X = 0, in the equilibrium of level ground, and keeps contact if and only if
+    the margin is positive.
 
     Parameters
     ----------
@@ -53,20 +63,24 @@ def margin(robot: Robot, bump: GaussianBump, v: float, tfinal: float | None = No
     v : float
         Speed, m/s, > 0.
     tfinal : float, optional
-        End of the run, s, > 0; 1.25 m / v if not given.
+        End of the run, s, > 0, in the place of `distance`. Such a run is taken as it is, wherever
+        the bump lies: a wheel may start on it, in the state that is at rest on level ground.
+    distance : float, optional
+        How far the run goes, m, as in `distance_over`: 1.25 m if the whole bump lies within.
 
     Returns
     -------
     margin : float
-        The minimum of N1 and N2 (Eq. 5) over [0, tfinal], N.
+        The minimum of N1 and N2 (Eq. 5) over the run, N.
 
     Raises
     ------
     ValueError
-        If an argument is out of its range; if the modes swing so often until `tfinal` that more
-        than 2 million samples were needed; or if robot and bump are so extreme that the forces
-        overflow, or lose digits: their rounding error (`roundoff`) must stay below a millionth of
-        the force at rest, or of the margin if that is larger.
+        If an argument is out of its range; if, without `tfinal`, `distance_over` refuses; if the
+        modes swing so often in the run that more than 2 million samples were needed; or if robot
+        and bump are so extreme that the forces overflow, or lose digits: their rounding error
+        (`roundoff`) must stay below a millionth of the force at rest, or of the margin if that is
+        larger.
 
     Examples
     --------
@@ -75,10 +89,76 @@ def margin(robot: Robot, bump: GaussianBump, v: float, tfinal: float | None = No
     >>> [round(margin(Robot(800, 800), GaussianBump(), v), 3) for v in (0.25, 1.2, 5, 10)]
     [5.598, -25.231, -5.012, 1.673]
     """
-    return min(minimum.force for minimum in minima(robot, bump, v, tfinal))
+    return min(minimum.force for minimum in minima(robot, bump, v, tfinal, distance=distance))
 
 
-def minima(robot, bump, v, tfinal=None):
+def distance_over(robot, bump, distance=None):
+    """How far a run goes that starts at X = 0 and takes a robot over a bump, m.
+
+    What is left of a bump four sigmas from its centre, 0.03 % of its height, counts as level.
+
+    Parameters
+    ----------
+    robot : Robot
+    bump : GaussianBump
+    distance : float, optional
+        What was asked for, m, > 0. It is taken as it is, also one that ends before or on the bump.
+        If not given, the 1.25 m of the problem set (`suspension.problem.DISTANCE`), provided that
+        both wheels pass the whole bump within it.
+
+    Returns
+    -------
+    distance : float
+
+    Raises
+    ------
+    ValueError
+        If a wheel stands on the bump at X = 0; or if no distance is given and a wheel does not
+        pass the whole bump within 1.25 m: the distance that would do is told.
+
+    Examples
+    --------
+    >>> from suspension.road import GaussianBump
+    >>> from suspension.robot import Robot
+    >>> distance_over(Robot(800, 800), GaussianBump())
+    1.25
+    >>> distance_over(Robot(800, 800), GaussianBump(centre=3.0), 4.0)
+    4.0
+    """
+    _checks.instance("robot", robot, Robot)
+    _checks.instance("bump", bump, GaussianBump)
+    reach = CLEAR * bump.sigma
+    roundoff = EPS * (4 * reach + abs(bump.centre))
+    asked = None if distance is None else _checks.positive("distance", distance)
+    first, last = robot.L2 + reach, bump.centre + reach + robot.L1
+    on_it = np.abs(robot.arms - bump.centre) < reach - roundoff
+    if on_it.any() or (asked is None and bump.centre < first - roundoff):
+        # Moved there, a wide bump or a long robot still does not fit.
+        enough = first + reach + robot.L1
+        too = f", and distance {_round_up(enough)} m or more" if enough > DISTANCE else ""
+        raise ValueError(
+            "bump must begin ahead of the robot, which starts at X = 0 on level ground: its centre "
+            f"must be at {_round_up(first)} m or more (L2 + {CLEAR:g} sigma){too}, got "
+            f"centre={bump.centre:g} with sigma={bump.sigma:g}, L1={robot.L1:g}, L2={robot.L2:g}"
+        )
+    if asked is not None:
+        return asked
+    if last > DISTANCE + roundoff:
+        raise ValueError(
+            f"distance must be given, {_round_up(last)} m or more, for both wheels to pass the "
+            f"whole bump (centre={bump.centre:g}, sigma={bump.sigma:g}): it reaches beyond the "
+            f"{DISTANCE:g} m of the problem set, got distance=None"
+        )
+    return DISTANCE
+
+
+def _round_up(x):
+    """A length in three digits, not less than it is."""
+    unit = 10.0 ** (np.floor(np.log10(x)) - 2)
+    return f"{np.ceil(x / unit * (1 - 1e-12)) * unit:.6g}"
+
+
+def minima(robot, bump, v, tfinal=None, *, distance=None):
     """The least normal force of each wheel on the way over the bump, rear before front.
 
     Parameters are those of `margin`.
@@ -88,22 +168,22 @@ def minima(robot, bump, v, tfinal=None):
     minima : tuple of two Minimum
     """
     v = _checks.positive("v", v)
-    t, N = turning_points(Crossing(robot, bump, v), tfinal)
+    t, N = turning_points(Crossing(robot, bump, v), tfinal, distance=distance)
     return tuple(
         Minimum(wheel, float(N[i, j]), float(t[j]), float(v * t[j]))
         for wheel, i, j in zip((1, 2), (0, 1), N.argmin(axis=1), strict=True)
     )
 
 
-def turning_points(crossing, tfinal=None):
+def turning_points(crossing, tfinal=None, *, distance=None):
     """Samples of both normal forces that contain every minimum of each.
 
     Parameters
     ----------
     crossing : Crossing
         With v > 0 if `tfinal` is not given.
-    tfinal : float, optional
-        End of the run, s, > 0; 1.25 m / v if not given.
+    tfinal, distance : float, optional
+        As in `margin`.
 
     Returns
     -------
@@ -117,17 +197,8 @@ def turning_points(crossing, tfinal=None):
     ValueError
         As `margin` does.
     """
-    tfinal = COURSE / crossing.v if tfinal is None else _checks.positive("tfinal", tfinal)
-    samples = _samples(crossing, tfinal)
-    with np.errstate(all="ignore"):
-        parts = [
-            _with_minima(crossing, samples[i : i + CHUNK + 1])
-            for i in range(0, len(samples) - 1, CHUNK)
-        ]
-        t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
-        t, once = np.unique(t, return_index=True)  # the parts share their ends
-        N = N[:, once]
-        error = roundoff(crossing, tfinal)
+    tfinal = duration(crossing.robot, crossing.bump, crossing.v, tfinal, distance)
+    t, N, error = forces_and_minima(crossing, tfinal)
     scale = max(np.abs(crossing.robot.C @ crossing.robot.equilibrium).max(), -N.min())
     if not (np.isfinite(N).all() and error <= DIGITS_LOST * scale):
         raise ValueError(
@@ -136,6 +207,33 @@ def turning_points(crossing, tfinal=None):
             f"whose forces may be off by {error:.2g} N"
         )
     return t, N
+
+
+def forces_and_minima(crossing, tfinal):
+    """What `turning_points` looks for, with an estimate of its rounding error (`roundoff`), N.
+
+    Nothing is refused here: forces may overflow, or drown in the error.
+    """
+    samples = _samples(crossing, tfinal)
+    with np.errstate(all="ignore"):
+        parts = [
+            _with_minima(crossing, samples[i : i + CHUNK + 1])
+            for i in range(0, len(samples) - 1, CHUNK)
+        ]
+        t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
+        t, once = np.unique(t, return_index=True)  # the parts share their ends
+        return t, N[:, once], roundoff(crossing, tfinal)
+
+
+def duration(robot, bump, v, tfinal=None, distance=None):
+    """How long a run at speed `v` lasts, s: until `tfinal` if given, else over `distance`."""
+    if tfinal is None:
+        return distance_over(robot, bump, distance) / v
+    if distance is not None:
+        raise ValueError(
+            f"distance must be None if tfinal is given, got distance={distance}, tfinal={tfinal}"
+        )
+    return _checks.positive("tfinal", tfinal)
 
 
 def _with_minima(crossing, t):
@@ -208,9 +306,9 @@ def exact_forces(crossing, t, order=0):
     return np.array(N)
 
 
-def sample_count(robot, v):
-    """About how many samples of the forces a margin at speed `v` takes."""
-    return 400 + 2.5 * COURSE / v * np.abs(robot.eigenvalues.imag).max()
+def sample_count(robot, v, distance):
+    """About how many samples of the forces a margin at speed `v` over a distance takes."""
+    return 400 + 2.5 * distance / v * np.abs(robot.eigenvalues.imag).max()
 
 
 def _samples(crossing, tfinal):
@@ -219,8 +317,9 @@ def _samples(crossing, tfinal):
     swings = 2.5 * tfinal * np.abs(crossing.lam.imag).max()
     if not swings <= MAX_SAMPLES:
         raise ValueError(
-            "v must be so high, or tfinal so short, that the swings of the modes can be followed "
-            f"with {MAX_SAMPLES} samples, got v={crossing.v:g}, tfinal={tfinal:g}: {swings:.3g}"
+            "v must be so high, or tfinal or distance so short, that the swings of the modes can "
+            f"be followed with {MAX_SAMPLES} samples, got v={crossing.v:g}, tfinal={tfinal:g}: "
+            f"{swings:.3g}"
         )
     swinging = np.linspace(0, tfinal, 2 + int(swings))
     fastest = 0.1 / np.abs(crossing.lam).max()

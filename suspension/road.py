@@ -8,6 +8,7 @@ its smallest feature between them, m: no step is longer than twice that.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from reprlib import repr as short
 from typing import TYPE_CHECKING, Literal
 
@@ -246,6 +247,11 @@ class RoughRoad:
             raise ValueError(
                 f"shortest must be from length / {MAX_WAVES} to length, got "
                 f"shortest={self.shortest:g}, length={self.length:g}"
+            )
+        if not isfinite(2 * self.roughness * (N0 * self.length) * N0 + 2 * self.roughness):
+            raise ValueError(
+                "roughness must be so small that heights are finite, got "
+                f"roughness={self.roughness:g}, length={self.length:g}"
             )
 
     @property

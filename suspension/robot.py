@@ -159,6 +159,15 @@ class Robot:
         return self._eigen[1:]
 
     @_constant
+    def heave_share(self) -> np.ndarray:
+        """How much of each mode is heave, 0 to 1, shape (4,).
+
+        Heave and pitch are compared at the wheel that is further from the centre of mass.
+        """
+        heave, _, pitch, _ = np.abs(self.eigenvectors)
+        return heave / (heave + np.abs(self.arms).max() * pitch)
+
+    @_constant
     def _eigen(self):
         values, vectors = np.linalg.eig(self.A.astype(complex))
         order = np.lexsort((values.imag, np.abs(values).round(9)))

@@ -1,45 +1,34 @@
 """Part I: fit the spring, and say how well its coefficients are known.
 
 ``python -m suspension.springs [FILE]`` reads the data, says what was read and exits with 1 if they
-cannot be used.
+cannot be used; files are the business of `_readings`.
 """
 
-import hashlib
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 import statsmodels.api as sm
-from scipy import stats
+from scipy import special, stats
+from scipy.linalg import matmul_toeplitz
 from statsmodels.regression.linear_model import OLSResults, RegressionResultsWrapper
 
-from suspension import _checks
-from suspension._readings import COLUMNS, read
+from suspension import _checks, _readings
+from suspension._readings import COLUMNS, TRUE_STIFFNESS
+from suspension.problem import DELTA_MAX
 
 __all__ = [
     "TRUE_STIFFNESS",
     "Linearity",
+    "Neighbours",
     "SpringFit",
     "Stiffness",
     "fit_spring",
     "is_synthetic",
     "load_spring_data",
 ]
-
-# Beside the package in a checkout; inside it when it is installed.
-FOLDERS = (
-    Path(__file__).resolve().parents[1] / "data",
-    Path(__file__).resolve().parent / "data",
-)
-FILES = ("spring_data.mat", "spring_data.csv")
-
-# The synthetic stand-in, data/make_spring_data.py: its digest, so that another file under the same
-# name is not taken for it, and the truth behind it.
-SYNTHETIC = "4443053ab6a814e209f91ab03635f51ed49172dc75c624a1e632790b21e09b11"
-TRUE_STIFFNESS = 800.0  # N/m
 
 EXACT = 1e-12  # residuals below this part of the largest force are roundoff
 
@@ -67,34 +56,15 @@ def load_spring_data(path=None):
         If the file cannot be read or anything in it is not as it must be. One line names the file,
         the line in it and what was expected.
     """
-    readings = read(_default_file() if path is None else path)
+    readings = _readings.read(path)
     data = pd.DataFrame(dict(zip(COLUMNS, (readings.displacement, readings.force))))
-    name = _default_file().name if path is None else Path(path).name
-    try:
-        fit = fit_spring(data)
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from None
-    if not fit.beta[1] > 1e-6 * readings.force.max():
-        raise ValueError(
-            f"{name}: expected a force that grows with the displacement, got a slope at zero of "
-            f"{round(fit.stiffness, 6) + 0.0:.4g} N/m"
-        )
-    data.attrs.update(source=name, notes=readings.notes)
+    data.attrs.update(source=readings.source, notes=readings.notes)
     return data
-
-
-def _default_file():
-    for folder in FOLDERS:
-        for name in FILES:
-            if (folder / name).exists():
-                return folder / name
-    raise ValueError(f"path must be given, because {FOLDERS[0]} holds no {' or '.join(FILES)}")
 
 
 def is_synthetic(data):
     """Whether `data` are the synthetic stand-in, so that a report can say so."""
-    text = data[list(COLUMNS)].to_csv(index=False, lineterminator="\n")
-    return hashlib.sha256(text.encode()).hexdigest() == SYNTHETIC
+    return _readings.are_synthetic(*(data[name] for name in COLUMNS))
 
 
 class Stiffness(NamedTuple):
@@ -119,7 +89,8 @@ class Stiffness(NamedTuple):
     def distribution(self):
         """Confidence distribution in N/m, a frozen `scipy.stats.t`."""
         self._needs_an_error()
-        return stats.t(self.free, loc=self.value, scale=self.error)
+        # Readings on a curve may leave an error of zero, which makes no distribution.
+        return stats.t(self.free, loc=self.value, scale=max(self.error, np.finfo(float).tiny))
 
     def interval(self, level=0.95):
         """Confidence interval of this stiffness alone, N/m, shape (2,)."""
@@ -152,6 +123,32 @@ class Linearity(NamedTuple):
     linear: bool
 
 
+class Neighbours(NamedTuple):
+    """Whether the residuals of neighbouring readings, in the order of the file, go together.
+
+    Attributes
+    ----------
+    correlation : float
+        Sum of the products of neighbours over the sum of squares. This and all else is nan if the
+        parabola goes through every reading or there are fewer than five.
+    low, high : float
+        Between them it is in 95 of 100 experiments with independent errors.
+    widening : float
+        How many times as wide the interval of the slope at zero would have to be if the errors of
+        readings i and j correlated with ``correlation ** abs(i - j)``.
+    """
+
+    correlation: float
+    low: float
+    high: float
+    widening: float
+
+    @property
+    def suspicious(self):
+        """Whether they correlate in a way that independent errors seldom do."""
+        return self.correlation < self.low or self.correlation > self.high
+
+
 @dataclass(frozen=True, eq=False)
 class SpringFit:
     """The fit of ``F = beta0 + beta1 x + beta2 x^2``, x = delta / delta_max (Eq. 9).
@@ -159,6 +156,7 @@ class SpringFit:
     Attributes
     ----------
     results : statsmodels.regression.linear_model.RegressionResults
+        For those who want more than the properties below; nothing in this project reads it.
     delta_max : float
         Largest displacement, m.
     """
@@ -170,21 +168,83 @@ class SpringFit:
         beta = ", ".join(f"{b:.4g}" for b in self.beta)
         return (
             f"SpringFit(beta=[{beta}] N, stiffness={self.stiffness:.4g} N/m, "
-            f"points={len(self._force)}, delta_max={self.delta_max:g} m)"
+            f"points={len(self.F)}, delta_max={self.delta_max:g} m)"
         )
 
+    # --- readings and estimates -----------------------------------------------------------------
+
     @property
-    def _x(self):
+    def x(self):
+        """Displacements of the readings over the largest, shape (m,)."""
         return self.results.model.exog[:, 1]
 
     @property
-    def _force(self):
+    def F(self):
+        """Forces of the readings, N, shape (m,)."""
         return self.results.model.endog
 
     @property
     def beta(self):
         """Estimates of beta0, beta1 and beta2, N, shape (3,)."""
         return np.asarray(self.results.params)
+
+    @property
+    def residuals(self):
+        """Measured minus fitted forces, N, shape (m,)."""
+        return np.asarray(self.results.resid)
+
+    @property
+    def free(self):
+        """Degrees of freedom of the residuals, m - 3."""
+        return int(self.results.df_resid)
+
+    @property
+    def scatter(self):
+        """Estimated standard deviation of one reading, N; nan if three readings leave none."""
+        return float(np.sqrt(self.results.mse_resid)) if self.free else np.nan
+
+    @property
+    def covariance(self):
+        """Estimated covariance of the three estimates, N^2, shape (3, 3)."""
+        return self.scatter**2 * self._unit_covariance
+
+    @property
+    def _unit_covariance(self):
+        """``(M^T M)^-1`` of the design matrix M."""
+        return np.asarray(self.results.normalized_cov_params)
+
+    @property
+    def errors(self):
+        """Standard errors of the three estimates, N, shape (3,)."""
+        return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def exact(self):
+        """Whether the readings lie on the parabola, but for roundoff."""
+        return bool(np.abs(self.residuals).max() <= EXACT * np.abs(self.F).max())
+
+    def force(self, x):
+        """The fitted force at displacements `x`, N."""
+        return np.polynomial.polynomial.polyval(_checks.array("x", x), self.beta)
+
+    def band(self, x, level=0.95):
+        """Confidence band of the mean force, for each displacement alone.
+
+        Parameters
+        ----------
+        x : array_like, shape (n,)
+            Displacements over the largest.
+        level : float
+
+        Returns
+        -------
+        band : ndarray, shape (2, n)
+            Lower and upper bound, N.
+        """
+        rows = np.vander(_checks.array("x", x, (None,)), 3, increasing=True)
+        error = np.sqrt(np.einsum("ni,ij,nj->n", rows, self.covariance, rows))
+        half = self.width(level, "individual") * error
+        return rows @ self.beta + np.array([-half, half])
 
     @property
     def stiffness(self):
@@ -197,10 +257,46 @@ class SpringFit:
 
     @property
     def cubic_pvalue(self):
-        """p-value of a cubic term added to the model; a small one betrays a bias."""
-        exog = self.results.model.exog
-        cubic = np.column_stack([exog, exog[:, 1] ** 3])
-        return float(sm.OLS(self.results.model.endog, cubic).fit().pvalues[-1])
+        """p-value of a cubic term added to the model; a small one betrays a bias.
+
+        None where there is nothing to tell it by: fewer than five readings, fewer than four
+        different displacements, readings that lie on the parabola.
+        """
+        if self.free < 2 or self.exact:
+            return None
+        try:
+            cubic = _readings.design(self.x, 4)
+        except ValueError:
+            return None
+        return float(least_squares(self.F, cubic).pvalues[-1])
+
+    @property
+    def neighbours(self):
+        """Whether neighbouring residuals correlate, and what that does to the intervals.
+
+        Residuals are P times the errors, P the projection along the fitted curves, so that a sum
+        of products of neighbours has known mean and variance, as in the test of Durbin and Watson.
+        """
+        m, r = len(self.x), self.residuals
+        if self.free < 2 or self.exact:
+            return Neighbours(np.nan, np.nan, np.nan, np.nan)
+        correlation = float(r[:-1] @ r[1:] / (r @ r))
+        M = _readings.design(self.x)
+        estimate = self._unit_covariance @ M.T  # times the forces it is beta
+        shifted = np.zeros_like(M)  # S M, S the mean of the shifts by one to either side
+        shifted[1:] += M[:-1] / 2
+        shifted[:-1] += M[1:] / 2
+        small = estimate @ shifted
+        mean = -np.trace(small) / self.free
+        square = (m - 1) / 2 + np.trace(small @ small)  # of P S, its trace
+        square -= 2 * np.trace(self._unit_covariance @ shifted.T @ shifted)
+        variance = 2 * (square / self.free - mean**2) / (self.free + 2)
+        half = stats.norm.ppf(0.975) * np.sqrt(variance)
+        together = matmul_toeplitz(correlation ** np.arange(m), M)  # correlations of errors, M
+        seen = (m - np.trace(estimate @ together)) / self.free  # of a variance of 1
+        true = (estimate @ together @ self._unit_covariance)[1, 1] / self._unit_covariance[1, 1]
+        widening = float(np.sqrt(true / seen))
+        return Neighbours(correlation, float(mean - half), float(mean + half), widening)
 
     # --- which stiffness does the robot feel? ---------------------------------------------------
 
@@ -212,7 +308,7 @@ class SpringFit:
     @property
     def line(self):
         """The slope of the line through the origin; fair if `linearity` does not contradict it."""
-        x, force = self._x, self._force
+        x, force = self.x, self.F
         slope = x @ force / (x @ x)
         free = len(x) - 1
         error = np.sqrt(np.sum((force - slope * x) ** 2) / free / (x @ x))
@@ -250,10 +346,8 @@ class SpringFit:
 
     def _slope_at(self, name, x):
         weights = np.array([0, 1, 2 * x]) / self.delta_max
-        free, error = int(self.results.df_resid), np.nan
-        if free:
-            error = np.sqrt(weights @ np.asarray(self.results.cov_params()) @ weights)
-        return Stiffness(name, float(weights @ self.beta), float(error), free)
+        error = np.sqrt(weights @ self.covariance @ weights)
+        return Stiffness(name, float(weights @ self.beta), float(error), self.free)
 
     def linearity(self, level=0.95):
         """Do the data contradict a linear spring without preload, ``beta0 = beta2 = 0``?
@@ -271,8 +365,8 @@ class SpringFit:
         Linearity
         """
         low, high = self.intervals(level)[[0, 2]].T
-        size = np.abs(self._force).max()
-        if np.abs(self.results.resid).max() <= EXACT * size:
+        if self.exact:
+            size = np.abs(self.F).max()
             straight = bool((np.abs(self.beta[[0, 2]]) <= 1e3 * EXACT * size).all())
             if straight:
                 return Linearity(0.0, 1.0, joint=True, linear=True)
@@ -281,6 +375,44 @@ class SpringFit:
         joint = bool((low <= 0).all() and (high >= 0).all())
         p = float(test.pvalue)
         return Linearity(float(test.fvalue), p, joint, joint and p >= 1 - level)
+
+    def power(self, beta0, beta2, level=0.95):
+        """How often the F test of `linearity` would notice such a preload and curvature.
+
+        The noncentral F distribution: ``P(F' > F^-1(level; 2, m - 3))`` with the noncentrality
+        ``b^T V^-1 b``, b = (beta0, beta2) and V their covariance in this fit. The true scatter is
+        taken to be the estimated one.
+
+        Parameters
+        ----------
+        beta0, beta2 : float or array_like
+            True coefficients, N; they broadcast.
+        level : float
+            Confidence level; the test rejects below ``1 - level``.
+
+        Returns
+        -------
+        power : float or ndarray
+            Probability, from ``1 - level`` for a linear spring to 1.
+        """
+        level = _checks.interval("level", level, 0, 1)
+        self._needs_an_error()
+        beta0, beta2 = _checks.array("beta0", beta0), _checks.array("beta2", beta2)
+        try:
+            b = np.stack(np.broadcast_arrays(beta0, beta2), -1)
+        except ValueError:
+            raise ValueError(
+                f"beta2 must broadcast with beta0, got shapes {beta2.shape} and {beta0.shape}"
+            ) from None
+        V = self._unit_covariance[np.ix_([0, 2], [0, 2])]
+        distance = np.einsum("...i,ij,...j", b, np.linalg.inv(V), b)
+        with np.errstate(over="ignore"):
+            noncentrality = distance / max(self.scatter**2, np.finfo(float).tiny)
+        # Far beyond certainty; the distribution function gives up some powers of ten later.
+        noncentrality = np.minimum(noncentrality, 1e7)
+        limit = stats.f.ppf(level, 2, self.free)
+        power = 1 - special.ncfdtr(2, self.free, noncentrality, limit)
+        return power if power.ndim else float(power)
 
     # --- intervals of the coefficients ----------------------------------------------------------
 
@@ -305,24 +437,25 @@ class SpringFit:
             Lower and upper bound for beta0, beta1, beta2, N.
         """
         s = self.width(level, method, p)
-        se = np.asarray(self.results.bse)
-        return self.beta[:, None] + np.outer(s * se, [-1, 1])
+        return self.beta[:, None] + np.outer(s * self.errors, [-1, 1])
 
     def width(self, level=0.95, method="scheffe", p=3):
         """Half-width s of the intervals in standard errors; arguments as in `intervals`."""
         level = _checks.interval("level", level, 0, 1)
         _checks.one_of("method", method, ("scheffe", "bonferroni", "individual"))
         _checks.one_of("p", p, (1, 2, 3))
-        free = self.results.df_resid
-        if free < 1:
-            raise ValueError("data must have more points than the three coefficients, got 3")
+        self._needs_an_error()
         if method == "scheffe":
-            return float(np.sqrt(p * stats.f.ppf(level, p, free)))
+            return float(np.sqrt(p * stats.f.ppf(level, p, self.free)))
         compared = p if method == "bonferroni" else 1
-        return float(stats.t.ppf(1 - (1 - level) / (2 * compared), free))
+        return float(stats.t.ppf(1 - (1 - level) / (2 * compared), self.free))
+
+    def _needs_an_error(self):
+        if self.free < 1:
+            raise ValueError("data must have more points than the three coefficients, got 3")
 
 
-def fit_spring(data, delta_max=0.0165):
+def fit_spring(data, delta_max=DELTA_MAX):
     """Least squares for the force-displacement model, Eq. 9.
 
     Any displacements and any slope can be fitted; it is `load_spring_data` that insists on a
@@ -349,19 +482,7 @@ def fit_spring(data, delta_max=0.0165):
     """
     delta_max = _checks.positive("delta_max", delta_max)
     x, force = _columns(data)
-    different = len(np.unique(x))
-    if different < 3:
-        raise ValueError(
-            "data must have at least three points at three different displacements to fit three "
-            f"coefficients, got {len(x)} points at {different}"
-        )
-    design = pd.DataFrame({"beta0": np.ones_like(x), "beta1": x, "beta2": x**2})
-    scaled = design.to_numpy() / np.linalg.norm(design, axis=0)
-    if not np.linalg.cond(scaled) < 1e8:
-        raise ValueError(
-            "data must have displacements far enough apart to tell three coefficients, "
-            f"got {x.min():g} to {x.max():g}, {np.ptp(x):.2g} apart"
-        )
+    design = pd.DataFrame(_readings.design(x), columns=["beta0", "beta1", "beta2"])
     return SpringFit(least_squares(force, design), delta_max)
 
 
@@ -392,24 +513,5 @@ def least_squares(y, X):
     return RegressionResultsWrapper(OLSResults(model, beta, R_inverse @ R_inverse.T))
 
 
-def main(arguments):
-    """Say what a file of readings holds; the exit code is 1 if it cannot be used."""
-    try:
-        data = load_spring_data(*arguments[:1])
-        fit = fit_spring(data)
-    except ValueError as error:
-        print(error, file=sys.stderr)
-        return 1
-    x, force = (data[name] for name in COLUMNS)
-    print(f"file    {data.attrs['source']}{' (synthetic)' if is_synthetic(data) else ''}")
-    print(f"points  {len(data)}")
-    print(f"range   delta/delta_max from {x.min():g} to {x.max():g}")
-    print(f"        force from {force.min():g} to {force.max():g} N, of the spring pair")
-    print(f"slope   {fit.stiffness:.1f} N/m at zero, with delta_max = {fit.delta_max:g} m")
-    for note in data.attrs["notes"]:
-        print(f"note    {note}")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(_readings.main(sys.argv[1:]))

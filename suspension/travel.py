@@ -1,6 +1,6 @@
 """Where the model itself is in doubt: how far the springs travel and how far the body tilts.
 
-And what to look at in a flight: the moments that tell its story.
+And what to look at: the two parts of the least force, the moments that tell the story of a flight.
 """
 
 from dataclasses import replace
@@ -9,15 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from suspension import _checks
-from suspension.contact import critical_speeds, exact_loss, margin, minima
+from suspension.contact import critical_speeds, exact_loss, margin, minima, regimes_between
 from suspension.critical import zeros
 from suspension.exact import over_bump
-from suspension.forces import WHEEL
-from suspension.least_force import COURSE
+from suspension.least_force import distance_over
 from suspension.road import road_input
 
 __all__ = [
     "Balance",
+    "Moment",
+    "Overtravel",
     "Travel",
     "balance",
     "compression_map",
@@ -29,6 +30,8 @@ __all__ = [
 
 
 MAX_SAMPLES = 10**6
+REAR, FRONT = 1, 2
+PUSHES = 1 / 7  # of the force at rest: a spring that gives more is still compressed
 
 
 class Travel(NamedTuple):
@@ -39,7 +42,7 @@ class Travel(NamedTuple):
     pitch: float
 
 
-def travel(robot, bump, v, samples=2001):
+def travel(robot, bump, v, samples=2001, *, distance=None):
     """How far springs and body move while both wheels press on the ground.
 
     Parameters
@@ -49,7 +52,9 @@ def travel(robot, bump, v, samples=2001):
     v : float
         Speed, m/s, > 0.
     samples : int
-        Equally spaced times from 0 to the first loss of contact, or to 1.25 m / v.
+        Equally spaced times from 0 to the first loss of contact, or to the end of the run.
+    distance : float, optional
+        How far it goes, m: 1.25 m if the whole bump lies within (`distance_over`).
 
     Returns
     -------
@@ -59,8 +64,9 @@ def travel(robot, bump, v, samples=2001):
     samples = _checks.whole("samples", samples, 2)
     if samples > MAX_SAMPLES:
         raise ValueError(f"samples must be at most {MAX_SAMPLES}, got {samples}")
-    loss = exact_loss(robot, bump, v)
-    t = np.linspace(0, loss.t if loss else COURSE / v, samples)
+    distance = distance_over(robot, bump, distance)
+    loss = exact_loss(robot, bump, v, distance=distance)
+    t = np.linspace(0, loss.t if loss else distance / v, samples)
     W = over_bump(robot, bump, v, t)
     compression = _compression(robot, bump, v, t, W)
     return Travel(compression.max(), max(-compression.min(), 0.0), np.abs(W[2]).max())
@@ -72,7 +78,18 @@ def _compression(robot, bump, v, t, W):
     return road_input(robot, bump, v, t)[:2] - ends
 
 
-def overtravel(robot, bump, limit, vmin, vmax):
+class Overtravel(NamedTuple):
+    """A range of speeds, m/s, in which a spring is compressed by more than a limit.
+
+    `times` is the largest compression found there, in units of the limit.
+    """
+
+    low: float
+    high: float
+    times: float
+
+
+def overtravel(robot, bump, limit, vmin, vmax, *, distance=None):
     """The ranges of speed in which a spring is compressed by more than `limit`.
 
     Only what happens before a loss of contact counts. The compression until then jumps where the
@@ -86,41 +103,47 @@ def overtravel(robot, bump, limit, vmin, vmax):
         Compression, m, > 0.
     vmin, vmax : float
         Range of speeds, m/s, 0 < vmin < vmax.
+    distance : float, optional
+        As in `travel`.
 
     Returns
     -------
-    ranges : ndarray, shape (n, 2)
-        Lower and upper edges, m/s, in order. A range narrower than a fortieth of its speed may be
-        missed.
+    ranges : tuple of Overtravel
+        In order. A range narrower than a fortieth of its speed may be missed.
 
     Examples
     --------
     >>> from suspension.road import GaussianBump
     >>> from suspension.robot import Robot
-    >>> overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.5, 2).round(2)
-    array([[0.73, 2.  ]])
+    >>> (found,) = overtravel(Robot(800, 800), GaussianBump(), 0.0165, 0.5, 2)
+    >>> round(found.low, 2), round(found.high, 2), round(found.times, 2)
+    (0.73, 2.0, 1.71)
     """
     limit = _checks.positive("limit", limit)
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
+    distance = distance_over(robot, bump, distance)
+    reached = {}  # by speed, in units of the limit
 
-    def excess(x):
-        return travel(robot, bump, np.exp(x), samples=1001).compression / limit - 1
+    def spare(v):
+        reached[v] = travel(robot, bump, v, 1001, distance=distance).compression / limit
+        return 1 - reached[v]
 
     samples = 2 + int(40 * np.log(vmax / vmin))
     x = np.linspace(np.log(vmin), np.log(vmax), samples)
-    turns = np.log(critical_speeds(robot, bump, vmin, vmax))  # the moment of the loss jumps there
-    edges = np.array([vmin, *np.exp(zeros(excess, np.union1d(x, turns))), vmax])
-    inside = [excess(np.log(middle)) > 0 for middle in np.sqrt(edges[1:] * edges[:-1])]
-    ranges = []
-    for left, right, beyond in zip(edges[:-1], edges[1:], inside, strict=True):
-        if beyond and ranges and ranges[-1][1] == left:
-            ranges[-1][1] = right
-        elif beyond:
-            ranges.append([left, right])
-    return np.array(ranges).reshape(-1, 2)
+    # The moment of the loss jumps at a critical speed.
+    turns = np.log(critical_speeds(robot, bump, vmin, vmax, distance=distance))
+    edges = np.exp(zeros(lambda x: spare(np.exp(x)), np.union1d(x, turns)))
+    inside = edges[(vmin < edges) & (edges < vmax)]
+    beyond = regimes_between(spare, [vmin, *inside, vmax]).spans(lost=True)  # no way is spare
+    return tuple(
+        Overtravel(
+            float(low), float(high), float(max(r for v, r in reached.items() if low <= v <= high))
+        )
+        for low, high in beyond
+    )
 
 
-def margin_map(robot, bump, v, k):
+def margin_map(robot, bump, v, k, *, distance=None):
     """The margin over speed and stiffness.
 
     Parameters
@@ -129,6 +152,8 @@ def margin_map(robot, bump, v, k):
     bump : GaussianBump
     v, k : array_like, shapes (n,) and (m,)
         Speeds, m/s, and stiffnesses of all springs, N/m.
+    distance : float, optional
+        As in `travel`.
 
     Returns
     -------
@@ -136,82 +161,120 @@ def margin_map(robot, bump, v, k):
         N.
     """
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
-    return np.array([[margin(other, bump, speed) for speed in v] for other in robots])
+    return np.array(
+        [[margin(other, bump, speed, distance=distance) for speed in v] for other in robots]
+    )
 
 
-def compression_map(robot, bump, v, k):
+def compression_map(robot, bump, v, k, *, distance=None):
     """The largest compression of a spring, in m, over speed and stiffness, as `margin_map`."""
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
     return np.array(
-        [[travel(other, bump, speed, 501).compression for speed in v] for other in robots]
+        [
+            [travel(other, bump, speed, 501, distance=distance).compression for speed in v]
+            for other in robots
+        ]
     )
 
 
 class Balance(NamedTuple):
-    """What the force on a wheel, 1 (rear) or 2 (front), is the sum of: spring and damper, N."""
+    """What the least force on a wheel, 1 (rear) or 2 (front), is the sum of: spring and damper, N.
+
+    `rest` is the force on this wheel at rest, N.
+    """
 
     wheel: int
     spring: float
     damper: float
+    rest: float
+
+    @property
+    def pulled(self):
+        """Whether the spring still pushes, so that it is the damper that takes the force away."""
+        return self.spring > PUSHES * self.rest
 
 
-def balance(robot, bump, v):
-    """The two parts of the least normal force on the way over the bump, at `v` in m/s."""
-    least = min(minima(robot, bump, v), key=lambda minimum: minimum.force)
+def balance(robot, bump, v, *, distance=None):
+    """The two parts of the least normal force on the way over the bump, at `v` in m/s.
+
+    `distance` is that of `travel`.
+    """
+    least = min(minima(robot, bump, v, distance=distance), key=lambda minimum: minimum.force)
     t = np.array([least.t])
     i = least.wheel - 1
     compression = _compression(robot, bump, v, t, over_bump(robot, bump, v, t))
     spring = float(robot.k[i] * compression[i, 0])
-    return Balance(least.wheel, spring, least.force - spring)
+    rest = float(robot.C[i] @ robot.equilibrium)
+    return Balance(least.wheel, spring, least.force - spring, rest)
 
 
-def moments(flight, robot, bump):
-    """The moments on the way over the bump that tell the story of a flight, with words for each.
+class Moment(NamedTuple):
+    """A moment of a drive: what happens, to which wheel (None: to the body), and when, s.
+
+    `kind` is ``"foot"``, ``"top"`` (of the bump) or ``"past"`` (it), ``"lift-off"``, ``"apex"``
+    (the highest point of that flight), ``"landing"``, or ``"highest"`` (of both wheels).
+    """
+
+    kind: str
+    wheel: int | None
+    t: float
+
+
+def moments(flight, robot, bump, *, distance=None):
+    """The moments on the way over the bump that tell the story of a flight.
 
     Parameters
     ----------
     flight : suspension.flight.Flight
     robot : Robot
     bump : GaussianBump
+    distance : float, optional
+        How far the story goes, m, as in `travel`.
 
     Returns
     -------
-    moments : dict of float to str
-        Times, s, in order. With a lift-off: the front wheel at the foot of the bump, the first
-        lift-off, the highest point of that flight, its landing, and the highest wheel of all.
-        Without: the front wheel at the foot and on the top of the bump, the body over the top, the
-        rear wheel on it, and both past it.
+    moments : tuple of Moment
+        In order. With a lift-off: the front wheel at the foot of the bump, the first lift-off, the
+        apex of that flight, its landing, and the highest wheel of all. Without: the front wheel at
+        the foot and on the top of the bump, the body over the top, the rear wheel on it, and both
+        past it.
     """
-    v = flight.v
-    foot = bump.centre - 2 * bump.sigma
-    told = {(foot - robot.L2) / v: f"the {WHEEL[2]} wheel reaches the bump"}
-    lift_offs = [
-        event for event in flight.events if event.kind == "lift-off" and event.t <= COURSE / v
-    ]
-    if not lift_offs:
-        told[(bump.centre - robot.L2) / v] = f"the {WHEEL[2]} wheel is on its top"
-        told[bump.centre / v] = "the body is over it"
-        told[(bump.centre + robot.L1) / v] = f"the {WHEEL[1]} wheel is on its top"
-        told[(bump.centre + 2 * bump.sigma + robot.L1) / v] = "both have passed"
-        return told
-    first = lift_offs[0]
-    told[first.t] = f"the {WHEEL[first.wheel]} wheel lifts off"
-    landings = [
-        event.t
-        for event in flight.events
-        if event.wheel == first.wheel
-        and event.kind == "landing"
-        and first.t < event.t <= COURSE / v
-    ]
-    end = landings[0] if landings else COURSE / v
-    gaps = np.where(flight.T <= COURSE / v, flight.gaps, -1)
-    aloft = (flight.T > first.t) & (flight.T < end)
+    v = _checks.positive("flight's v", flight.v)
+    end = distance_over(robot, bump, distance) / v
+
+    def passing(kind, place, wheel=None):
+        """The moment at which a wheel, or the body, is at a place."""
+        arm = 0.0 if wheel is None else robot.arms[wheel - 1]
+        return Moment(kind, wheel, float((place - arm) / v))
+
+    foot = passing("foot", bump.centre - 2 * bump.sigma, FRONT)
+    events = [event for event in flight.events if event.t <= end]
+    first = next((event for event in events if event.kind == "lift-off"), None)
+    if first is None:
+        return (
+            foot,
+            passing("top", bump.centre, FRONT),
+            passing("top", bump.centre),
+            passing("top", bump.centre, REAR),
+            passing("past", bump.centre + 2 * bump.sigma, REAR)._replace(wheel=None),
+        )
+    landing = next(
+        (
+            event
+            for event in events
+            if (event.kind, event.wheel) == ("landing", first.wheel) and event.t > first.t
+        ),
+        None,
+    )
+    told = [foot, Moment("lift-off", first.wheel, first.t)]
+    gaps = np.where(flight.T <= end, flight.gaps, -1)
+    aloft = (flight.T > first.t) & (flight.T < (landing.t if landing else end))
     height = np.where(aloft, gaps[first.wheel - 1], 0)
     if height.max() > 0:  # a very short flight has no sample, and a wheel need not rise in it
-        told[float(flight.T[height.argmax()])] = "it is at the top of this flight"
-    if landings:
-        told[end] = "it lands"
+        told.append(Moment("apex", first.wheel, float(flight.T[height.argmax()])))
+    if landing:
+        told.append(Moment("landing", first.wheel, landing.t))
     i, j = np.unravel_index(gaps.argmax(), gaps.shape)
-    if gaps[i, j] > 0 and float(flight.T[j]) not in told:
-        told[float(flight.T[j])] = f"the {WHEEL[i + 1]} wheel is at its highest"
-    return dict(sorted(told.items()))
+    if gaps[i, j] > 0 and flight.T[j] not in [moment.t for moment in told]:
+        told.append(Moment("highest", int(i) + 1, float(flight.T[j])))
+    return tuple(sorted(told, key=lambda moment: moment.t))

@@ -10,8 +10,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from suspension import _checks
 from suspension.branches import End, branches
-from suspension.contact import critical_speeds, critical_stiffness, margin
+from suspension.contact import (
+    critical_speeds,
+    critical_stiffness,
+    is_lost,
+    margin,
+    regimes_between,
+)
+from suspension.least_force import distance_over
+from suspension.robot import Robot
 from suspension.springs import SpringFit, Stiffness
 
 __all__ = [
@@ -19,7 +28,6 @@ __all__ = [
     "critical_speed_intervals",
     "critical_speeds_by_stiffness",
     "loss_probability",
-    "stiffness_distribution",
 ]
 
 WIDEST = 20.0  # stiffnesses further from the estimate than this factor are left out
@@ -48,33 +56,12 @@ class CriticalSpeed(NamedTuple):
     dies: End | None
 
     @property
-    def exists_from(self):
-        """The stiffness in N/m above which it exists, None if that is outside the interval."""
-        return self.born and self.born.k
-
-    @property
-    def exists_to(self):
-        """The stiffness in N/m up to which it exists, None if that is outside the interval."""
-        return self.dies and self.dies.k
-
-    @property
     def everywhere(self):
         """Whether it exists in the whole interval of the stiffness."""
         return self.born is None and self.dies is None
 
 
-def stiffness_distribution(stiffness):
-    """Confidence distribution of the stiffness in N/m, a frozen `scipy.stats.t`.
-
-    Parameters
-    ----------
-    stiffness : Stiffness or SpringFit
-        Of a fit, the slope at zero.
-    """
-    return _stiffness(stiffness).distribution
-
-
-def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95):
+def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95, *, distance=None):
     """Every critical speed with its confidence interval.
 
     Each critical speed is followed while the stiffness goes through its interval. Where a pair
@@ -91,6 +78,9 @@ def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95):
         Range of speeds, m/s.
     level : float
         Confidence level of each interval.
+    distance : float, optional
+        How far each run goes, m: 1.25 m if the whole bump lies within
+        (`suspension.least_force.distance_over`).
 
     Returns
     -------
@@ -99,10 +89,10 @@ def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95):
         a twentieth and above twenty times the estimate are left out.
     """
     stiffness = _stiffness(stiffness)
-    return _intervals([stiffness], robot, bump, vmin, vmax, level)[0]
+    return _intervals([stiffness], robot, bump, vmin, vmax, level, distance)[0]
 
 
-def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95):
+def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95, *, distance=None):
     """What each of the three stiffnesses of a spring does to the critical speeds.
 
     Parameters
@@ -110,28 +100,32 @@ def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95):
     fit : SpringFit
     robot : Robot
         Both stiffnesses are replaced; half of its weight is the load of the tangent.
-    bump, vmin, vmax, level
+    bump, vmin, vmax, level, distance
         As in `critical_speed_intervals`.
 
     Returns
     -------
     pairs : tuple of (Stiffness, tuple of CriticalSpeed)
     """
+    _checks.instance("fit", fit, SpringFit)
+    _checks.instance("robot", robot, Robot)
     stiffnesses = fit.stiffnesses(robot.m * robot.g / 2)
-    intervals = _intervals(stiffnesses, robot, bump, vmin, vmax, level)
+    intervals = _intervals(stiffnesses, robot, bump, vmin, vmax, level, distance)
     return tuple(zip(stiffnesses, intervals))
 
 
-def _intervals(stiffnesses, robot, bump, vmin, vmax, level):
+def _intervals(stiffnesses, robot, bump, vmin, vmax, level, distance):
     """The critical speeds for each stiffness, from branches followed once for all of them."""
+    distance = distance_over(robot, bump, distance)
     bounds = [_bounds(stiffness, *stiffness.interval(level)) for stiffness in stiffnesses]
     kmin, kmax = np.min(bounds), np.max(bounds)
     first = stiffnesses[0].value
     if kmax - kmin <= EXACT * first:
-        speeds = critical_speeds(replace(robot, k1=first, k2=first), bump, vmin, vmax)
+        exact = replace(robot, k1=first, k2=first)
+        speeds = critical_speeds(exact, bump, vmin, vmax, distance=distance)
         known = tuple(CriticalSpeed(v, v, v, None, None) for v in map(float, speeds))
         return [known] * len(stiffnesses)
-    found = branches(robot, bump, vmin, vmax, kmin, kmax, check=first)
+    found = branches(robot, bump, vmin, vmax, kmin, kmax, check=first, distance=distance)
     return [_within(found, stiffness.value, *ends) for stiffness, ends in zip(stiffnesses, bounds)]
 
 
@@ -147,7 +141,7 @@ def _within(found, k, low, high):
     return tuple(sorted(parts, key=lambda part: part.low * part.high))
 
 
-def loss_probability(stiffness, robot, bump, v):
+def loss_probability(stiffness, robot, bump, v, *, distance=None):
     """How much of the stiffness's confidence distribution loses contact at speed `v`, 0 to 1.
 
     Between two critical stiffnesses the verdict is one and the same, so this is a sum of
@@ -162,21 +156,23 @@ def loss_probability(stiffness, robot, bump, v):
     bump : GaussianBump
     v : float
         Speed, m/s, > 0.
+    distance : float, optional
+        As in `critical_speed_intervals`.
     """
     stiffness = _stiffness(stiffness)
+    distance = distance_over(robot, bump, distance)
     k = stiffness.distribution
 
-    def lost(k):
-        return margin(replace(robot, k1=k, k2=k), bump, v) <= 0
+    def margin_at(k):
+        return margin(replace(robot, k1=k, k2=k), bump, v, distance=distance)
 
     if stiffness.error <= EXACT * stiffness.value:
-        return float(lost(stiffness.value))
+        return float(is_lost(margin_at(stiffness.value)))
     low, high = _bounds(stiffness, k.ppf(1e-9), k.ppf(1 - 1e-9))
     nominal = replace(robot, k1=stiffness.value, k2=stiffness.value)
-    flips = critical_stiffness(nominal, bump, v, low, high)
-    edges = np.array([low, *flips, high])
-    verdicts = [lost(middle) for middle in (edges[1:] + edges[:-1]) / 2]
-    return float(np.diff([0.0, *k.cdf(flips), 1.0]) @ verdicts)
+    flips = critical_stiffness(nominal, bump, v, low, high, distance=distance)
+    found = regimes_between(margin_at, [low, *flips, high], unit="N/m")
+    return float(np.diff([0.0, *k.cdf(found.critical), 1.0]) @ found.lost)
 
 
 def _bounds(stiffness, low, high):

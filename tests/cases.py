@@ -33,6 +33,14 @@ def readings(stiffness, preload=0.0, curvature=0.0, noise=0.05, points=21):
     return data
 
 
+def loading_and_unloading(stiffness=800, apart=0.5):
+    """Forces in N and displacements of a spring that gives back less than it took."""
+    x = np.r_[np.linspace(0, 1, 11), np.linspace(0.95, 0.05, 10)]
+    way = np.r_[np.ones(11), -np.ones(10)]
+    scatter = np.random.default_rng(1).normal(0, 0.05, x.size)
+    return stiffness * DELTA_MAX * x + apart * way * np.sqrt(x * (1 - x)) + scatter, x
+
+
 def fitted(stiffness, **how):
     """The fit of such readings."""
     return fit_spring(readings(stiffness, **how), DELTA_MAX)

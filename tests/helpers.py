@@ -2,7 +2,9 @@
 
 import re
 import shutil
+import subprocess
 import threading
+import warnings
 from contextlib import contextmanager
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -35,8 +37,50 @@ def files_of(entry):
 # All pages of the book, without the endings of their files.
 PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
-    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text()))
+    for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
+
+
+class Quantity:
+    """What numbers with units are to NumPy: as pint's, it gives bare ones away, with a warning."""
+
+    def __init__(self, magnitude, units="metre"):
+        self.magnitude, self.units = magnitude, units
+
+    def __array__(self, dtype=None, copy=None):
+        """The magnitudes alone."""
+        warnings.warn("the unit of the quantity is stripped", UserWarning, stacklevel=2)
+        return np.asarray(self.magnitude, dtype)
+
+    def __float__(self):
+        """Only a number without a dimension is a float."""
+        raise TypeError(f"cannot convert from {self.units!r} to 'dimensionless'")
+
+    def __len__(self):
+        """As that of the magnitudes; a scalar has none."""
+        return len(self.magnitude)
+
+    def __getitem__(self, key):
+        """A part, with the same units."""
+        return Quantity(self.magnitude[key], self.units)
+
+    def __repr__(self):
+        """As that of pint."""
+        return f"<Quantity({self.magnitude}, {self.units!r})>"
+
+
+class UnitArray(np.ndarray):
+    """The other kind, of unyt and astropy: an array that carries its units along."""
+
+    def __new__(cls, values, units="metre"):
+        """A view of the values."""
+        made = np.asarray(values, float).view(cls)
+        made.units = units
+        return made
+
+    def __array_finalize__(self, other):
+        """Parts and results have units as well."""
+        self.units = getattr(other, "units", None)
 
 
 def near(actual, expected, relative):
@@ -47,6 +91,13 @@ def near(actual, expected, relative):
     actual, expected = np.asarray(actual), np.asarray(expected)
     allowed = relative * np.abs(expected).max()
     np.testing.assert_allclose(actual, expected, rtol=0, atol=allowed)
+
+
+def shaded(ax):
+    """The ranges of x that are shaded, not hatched, over the whole height: shape (n, 2)."""
+    to_data = ax.transData.inverted()
+    patches = [patch for patch in ax.patches if not patch.get_hatch()]
+    return [patch.get_extents().transformed(to_data).intervalx.tolist() for patch in patches]
 
 
 def largest_difference(page, run):
@@ -80,6 +131,19 @@ def serve_files(folder):
     finally:
         server.shutdown()
         server.server_close()
+
+
+def windows_locale(folder):
+    """Variables of the environment in which text has the 256 letters of Windows, if possible.
+
+    Where the system cannot make such a locale (it takes ``localedef`` and its sources, on Debian
+    those of the package ``locales``), there are 128 letters, or 256 on Windows itself.
+    """
+    name = "en_US.CP1252"
+    command = ["localedef", "-i", "en_US", "-f", "CP1252", str(folder / name)]
+    made = shutil.which("localedef") and not subprocess.run(command, capture_output=True).returncode
+    own = {"LOCPATH": str(folder), "LC_ALL": name} if made else {"LC_ALL": "C"}
+    return own | {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 
 
 def find_chromium():

@@ -28,17 +28,22 @@ OPTIONS = (
 
 
 @contextmanager
-def serve(folder):
+def serve(folder, *options):
     """Start JupyterLab in a folder, without the user's settings; its address, ending in a slash."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     own = {name: str(folder / ".jupyter" / name) for name in PRIVATE}
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    env = os.environ | own | {"PYTHONPATH": path}
+    notebooks = [str(path) for path in (folder / "notebooks").glob("*.ipynb")]
+    if notebooks:  # as `make lab` does
+        trust = [sys.executable, "-m", "jupyter", "trust", *notebooks]
+        subprocess.run(trust, env=env, check=True, capture_output=True)
     command = [sys.executable, "-m", "jupyterlab", *OPTIONS, f"--port={port}"]
     server = subprocess.Popen(
-        [*command, f"--ServerApp.root_dir={folder}"],
-        env=os.environ | own | {"PYTHONPATH": path},
+        [*command, f"--ServerApp.root_dir={folder}", *options],
+        env=env,
         cwd=folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -57,15 +62,22 @@ def serve(folder):
 
 
 def run_all(tab, address, notebook):
-    """Open a notebook, run all its cells, and wait for the explorer."""
-    tab.goto(f"{address}lab/tree/{notebook}")
+    """Open a notebook alone, run all its cells, and wait for the explorer."""
+    tab.goto(f"{address}lab/tree/{notebook}?reset")
     # Asked to run before the kernel is there, JupyterLab asks back which one.
-    for _ in range(180):
-        kernels = tab.request.get(f"{address}api/kernels").json()
-        if "idle" in [kernel["execution_state"] for kernel in kernels]:
-            break
-        tab.wait_for_timeout(500)
+    tab.get_by_text("(ipykernel) | Idle").wait_for(timeout=90_000)
     tab.wait_for_timeout(1000)
     tab.get_by_role("menuitem", name="Run", exact=True).click()
     tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    tab.wait_for_selector(".suspension-explorer-box canvas[aria-label]", timeout=90_000)
+    # JupyterLab draws what is in sight.
+    explorer = tab.locator(".suspension-explorer-box.se-live canvas[aria-label]")
+    pages = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer")
+    for _ in range(300):
+        if explorer.count():
+            return
+        tab.wait_for_timeout(500)
+        pages.evaluate("""outer => {
+          const end = outer.scrollTop + outer.clientHeight >= outer.scrollHeight - 5;
+          outer.scrollTop = end ? 0 : outer.scrollTop + 0.9 * outer.clientHeight;
+        }""")
+    raise AssertionError(f"no explorer in {notebook}")

@@ -65,7 +65,7 @@ def node(folder, *arguments):
 def lay_out(folder):
     """Copy the page's modules to ``./page/``."""
     shutil.copytree(PAGE, folder / "page", dirs_exist_ok=True)
-    (folder / "package.json").write_text('{"type": "module"}')
+    (folder / "package.json").write_text('{"type": "module"}', encoding="utf-8")
 
 
 def run_in_node(folder, script):
@@ -89,7 +89,7 @@ def ask_page(folder, explorer, asked, settings):
     packed = {name: base64.b64encode(table).decode() for name, table in explorer.tables.items()}
     settings = [{**setting, "asked": asked} for setting in settings]
     given = {"facts": explorer.facts, "tables": packed, "settings": settings}
-    (folder / "given.json").write_text(json.dumps(given))
+    (folder / "given.json").write_text(json.dumps(given), encoding="utf-8")
     return [json.loads(line) for line in run_in_node(folder, ASK).splitlines()]
 
 
@@ -108,7 +108,7 @@ def random_settings(explorer, rng, count):
 
     own = explorer.family.own
     for _ in range(count):
-        setting = {name: float(place(reach)) for name, reach in explorer.family.ranges.items()}
+        setting = {name: float(place(reach)) for name, reach in explorer.ranges.items()}
         if not explorer.family.has_bump:
             setting |= {name: own[name] for name in ("height", "sigma")}
         yield setting | {"scheme_index": int(rng.integers(len(explorer.schemes)))}

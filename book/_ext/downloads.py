@@ -1,16 +1,49 @@
-"""Sphinx extension: a downloaded notebook says how to get the package that it imports."""
+"""Sphinx extension: a downloaded notebook says what it needs, and the book has it.
+
+The book carries the package that its notebooks import, as a wheel, with the data it was built from.
+"""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
+from sphinx.errors import ExtensionError
 
-HERE = """This notebook is a page of *{title}*. It imports the book's package, `suspension`, which
-needs Python 3.11 to 3.13. Unless it is opened in the folder of the project, run once:
+HEAD = """This notebook is a page of *{title}*. It imports the book's package, `suspension`.
+Unless it is opened in the folder of the project, {first}run once:
 
 ```
 %pip install {source}
 ```"""
+
+
+def head(title, wheel, address="", repository=""):
+    """The first cell of a downloaded notebook: where its package is, as far as the book knows.
+
+    `wheel` is the file's path in the book, `address` the book's own, ending in a slash.
+    """
+    if address:
+        return HEAD.format(title=title, first="", source=address + wheel)
+    if repository:
+        source = f'"suspension @ git+{repository}"'
+        return HEAD.format(title=title, first="", source=source)
+    first = f"copy `{wheel}` from the book's folder into that of this notebook and "
+    return HEAD.format(title=title, first=first, source=Path(wheel).name)
+
+
+def build_wheel(app):
+    """Put the package into the book; its path there."""
+    static = Path(app.outdir, "_static")
+    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(static)]
+    run = subprocess.run(
+        command, cwd=app.srcdir, capture_output=True, encoding="utf-8", errors="replace"
+    )
+    if run.returncode:
+        raise ExtensionError(f"the package could not be made into a wheel:\n{run.stderr}")
+    (wheel,) = static.glob("suspension-*.whl")
+    return f"_static/{wheel.name}"
 
 
 def say_what_is_needed(app, exception):
@@ -18,10 +51,9 @@ def say_what_is_needed(app, exception):
     if exception or app.builder.format != "html":
         return
     repository = os.environ.get("BOOK_REPOSITORY", "").rstrip("/")
-    source = f'"suspension @ git+{repository}"' if repository else "/path/to/the/project"
+    text = head(app.config.project, build_wheel(app), app.config.html_baseurl, repository)
     for path in sorted(Path(app.outdir, "_sources").rglob("*.ipynb")):
         notebook = nbformat.read(path, as_version=4)
-        text = HERE.format(title=app.config.project, source=source)
         notebook.cells.insert(0, nbformat.v4.new_markdown_cell(text, id="needs-suspension"))
         nbformat.write(notebook, path)
 

@@ -18,9 +18,11 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from sphinx.errors import ExtensionError
 from sphinx.util import logging
+from traitlets.config import Config
 
 logger = logging.getLogger(__name__)
 USED = ("suspension/**/*", "data/*", "requirements.txt")
+ENCRYPTED = Config(KernelManager={"transport_encryption": "auto"})  # or every kernel warns
 
 
 def take_over(app, config):
@@ -76,7 +78,9 @@ def run(path, result, timeout):
     """Run a notebook and store the outputs of its cells and the state of its widgets."""
     notebook = nbformat.read(path, as_version=4)
     folder = {"metadata": {"path": str(path.parent)}}
-    client = NotebookClient(notebook, timeout=timeout, kernel_name="python3", resources=folder)
+    client = NotebookClient(
+        notebook, timeout=timeout, kernel_name="python3", resources=folder, config=ENCRYPTED
+    )
     try:
         client.execute()
     except CellExecutionError as error:

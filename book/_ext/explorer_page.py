@@ -1,12 +1,13 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
 An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`). Pages
-that hold one get its script and style sheet; the widgets' state, which only a kernel's front end
-could use, is left out. The directive ``{explorer} name`` shows an explorer that a notebook has
-named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or
-of the page they point to.
+that hold one get its script and style sheet; the widgets, which only a kernel's front end could
+use, and their state are left out. The directive ``{explorer} name`` shows an explorer that a
+notebook has named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of
+their page, or of the page they point to.
 """
 
+import json
 import re
 from pathlib import Path
 
@@ -20,7 +21,11 @@ from sphinx.util.docutils import SphinxDirective
 from suspension.explorer import page_script, page_style
 
 PREFIX = "explore:"
+WIDGET = "application/vnd.jupyter.widget-view+json"
 BOX = "suspension-explorer-box"
+FOR_NOTEBOOKS = re.compile(
+    r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
+)
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 FILES = {"explorer.js": page_script, "explorer.css": page_style}
 
@@ -43,6 +48,23 @@ def add_files(app, page, template, context, doctree):
     if any(BOX in node.astext() for node in doctree.findall(nodes.raw)):
         app.add_js_file("explorer.js", loading_method="defer")
         app.add_css_file("explorer.css")
+
+
+def keep_pages(app, page, source):
+    """Leave out what is for readers of a notebook: the widget, and what to run for it."""
+    if Path(app.env.doc2path(page)).suffix != ".ipynb":
+        return
+    notebook = json.loads(source[0])
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            shown = [out for out in cell["outputs"] if WIDGET not in out.get("data", {})]
+            for data in (out.get("data", {}) for out in shown):
+                html = "".join(data.get("text/html", ""))
+                if BOX in html:
+                    data.pop("image/svg+xml", None)
+                    data["text/html"] = FOR_NOTEBOOKS.sub("", html)
+            cell["outputs"] = shown
+    source[0] = json.dumps(notebook)
 
 
 class ExplorerDirective(SphinxDirective):
@@ -103,5 +125,6 @@ def setup(app):
     app.add_directive("explorer", ExplorerDirective)
     app.add_post_transform(ExplorerLinks)
     app.connect("builder-inited", write_files)
+    app.connect("source-read", keep_pages, priority=110)  # once they have been run
     app.connect("html-page-context", add_files, priority=400)  # before MyST-NB adds scripts
     return {"parallel_read_safe": True, "parallel_write_safe": True}

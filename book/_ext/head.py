@@ -4,12 +4,17 @@ The book is built for no address in particular. Where it is published is said by
 ``BOOK_ADDRESS``, the address of its first page's folder, and ``BOOK_REPOSITORY``, that of its
 repository. Without the first there is no canonical address and no picture to share; without
 the second there are no buttons that open a notebook elsewhere.
+
+Tried instead: sphinxext-opengraph describes a page by its first 200 characters, cut within a word,
+with the LaTeX of formulas; sphinx-notfound-page writes addresses into its page that `light_pages`
+does not find, and needs to know where the book will be.
 """
 
 import os
 import re
 from html import escape
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from docutils import nodes
 
@@ -17,11 +22,13 @@ BRANCH = "main"
 LONGEST = 200  # characters of a description
 LOST = """<section id="lost"><h1>This page is not here</h1>
 <p>The address leads to no page of this book. It may have moved: look for it in the contents, or
-<a href="{search}">search</a>, or start from <a href="{home}">the first page</a>.</p></section>"""
+<a href="search.html">search</a>, or start from <a href="index.html">the first page</a>.</p>
+</section>"""
 
 
 def configure(app, config):
-    """Read the addresses."""
+    """Read the addresses, and give the book's name to all that ask for that of a project."""
+    config.project = config.html_title
     config.html_baseurl = os.environ.get("BOOK_ADDRESS", "").rstrip("/")
     config.html_baseurl += "/" if config.html_baseurl else ""
     repository = os.environ.get("BOOK_REPOSITORY", "").rstrip("/")
@@ -76,10 +83,13 @@ def description(doctree):
 
 
 def lost_page(app):
-    """A page for addresses that lead nowhere; servers show it at any depth."""
-    start = app.config.html_baseurl
-    body = LOST.format(search=f"{start}search.html", home=f"{start}index.html")
-    yield "404", {"title": "Not found", "body": body}, "page.html"
+    """A page for addresses that lead nowhere; servers show it at any depth.
+
+    There its links and its style are found from the folder of the book, if that is known.
+    """
+    start = urlsplit(app.config.html_baseurl).path
+    base = f'<base href="{escape(start)}" />' if start else ""
+    yield "404", {"title": "Not found", "body": LOST, "metatags": base}, "page.html"
 
 
 def draw_preview(app, exception):

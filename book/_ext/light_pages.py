@@ -2,10 +2,11 @@
 
 Theme and extensions put a dozen style sheets, a dozen scripts and some inline scripts into every
 page. After the build, what all pages load becomes ``_static/book.css`` and ``_static/book.js``. The
-style sheet keeps the rules whose classes occur on some page or in some script, the fonts keep the
-characters that the pages show and come with ``_static/first.js``, which runs before a page is
-drawn, so that nothing moves. No inline script is left: the pages work under the
-Content-Security-Policy that the README gives.
+style sheet keeps the rules whose classes occur on some page or in some script: a fourth of 540 kB.
+The fonts keep the characters that the pages show and come with scripts that run before a page is
+drawn, so that nothing moves: icons with ``_static/first.js``, those of formulas with
+``_static/fonts.js`` on the pages that have formulas. No inline script is left: the pages work
+under the Content-Security-Policy that the README gives.
 """
 
 import base64
@@ -14,7 +15,6 @@ import json
 import logging
 import re
 import shutil
-from html import unescape
 from io import BytesIO
 from pathlib import Path
 from posixpath import dirname, join, normpath
@@ -35,6 +35,8 @@ HANDLER = re.compile(r' onclick="([^"]*)"')
 PAGE_NAME = re.compile(r"DOCUMENTATION_OPTIONS\.pagename = .*;")
 NESTING = ("media", "supports", "layer", "container")  # rules that hold rules
 PRIVATE_USE = 0xE000  # code points from here on are icons
+PARTS = Path(__file__).parents[1] / "style"  # of the first scripts
+FORMULA = 'class="katex-html"'
 SEARCH = ("searchtools.js", "language_data.js", "searchindex.js")  # only the search page searches
 
 
@@ -61,14 +63,19 @@ def lighten(app, exception):
     styles = {path: find_styles(path, text, out) for path, text in pages.items()}
     shared = on_all(styles)
     words = used_words(pages.values(), [bundle, *other_scripts(out)])
-    characters = {letter for text in pages.values() for letter in in_formulas(text)}
+    characters = set().union(*pages.values())
     sheet = "\n".join(rebased(path, out) for path in shared)
     sheet, fonts = pruned(sheet, words, characters, out)
-    first = (Path(__file__).parent.parent / "style" / "first.js").read_text(encoding="utf-8")
+    theme, loader = (
+        (PARTS / name).read_text(encoding="utf-8") for name in ("first.js", "fonts.js")
+    )
+    of_formulas = [font for font in fonts if "KaTeX" in font[0]]
+    icons = [font for font in fonts if font not in of_formulas]
     files = {
         "book.css": sheet,
         "fonts.css": "".join(font_face(*font) for font in fonts),
-        "first.js": first.replace("FONTS", json.dumps(fonts, indent=0)),
+        "first.js": theme + loader.replace("FONTS", json.dumps(icons, indent=0)),
+        "fonts.js": loader.replace("FONTS", json.dumps(of_formulas, indent=0)),
     }
     for name, content in files.items():
         (out / "_static" / name).write_text(content, encoding="utf-8")
@@ -123,6 +130,7 @@ def rewritten(path, text, out, common, shared):
     """A page with one style sheet and one script in place of those that all pages have."""
     is_search = path.name == "search.html"
     up = "../" * (len(path.relative_to(out).parts) - 1)
+    scripts = [f'<script defer src="{up}_static/book.js{version(out, "book.js")}"></script>']
 
     def style(found):
         return "" if local(path, found[1] or found[2], out) in shared else found[0]
@@ -134,29 +142,31 @@ def rewritten(path, text, out, common, shared):
         source = SOURCE.search(attributes)
         if source:
             name = Path(source[1]).name
-            if local(path, source[1], out) in common or (name in SEARCH and not is_search):
-                return ""
-            defer = "" if "defer" in attributes else " defer"
-            return found[0].replace("<script", f"<script{defer}")
-        body = PAGE_NAME.sub("", body).strip()
-        if not body or body in common or "data-cfasync" in attributes:
+            if local(path, source[1], out) not in common and (is_search or name not in SEARCH):
+                defer = "" if "defer" in attributes else " defer"
+                scripts.append(found[0].strip().replace("<script", f"<script{defer}"))
             return ""
-        name = f"inline-{hashlib.sha256(body.encode()).hexdigest()[:12]}.js"
-        (out / "_static" / name).write_text(body + "\n", encoding="utf-8")
-        return f'\n<script defer src="{up}_static/{name}"></script>'
+        body = PAGE_NAME.sub("", body).strip()
+        if body and body not in common and "data-cfasync" not in attributes:
+            name = f"inline-{hashlib.sha256(body.encode()).hexdigest()[:12]}.js"
+            (out / "_static" / name).write_text(body + "\n", encoding="utf-8")
+            scripts.append(f'<script defer src="{up}_static/{name}"></script>')
+        return ""
 
     text = PRELOAD.sub("", STYLE.sub(style, SCRIPT.sub(script, text)))
     text = HANDLER.sub(r' data-click="\1"', text)
-    head = "".join(
-        [
-            f'\n<script src="{up}_static/first.js{version(out, "first.js")}"></script>',
-            f'\n<noscript><link rel="stylesheet" href="{up}_static/fonts.css" /></noscript>',
-            f'\n<link rel="stylesheet" href="{up}_static/book.css{version(out, "book.css")}" />',
-            f'\n<script defer src="{up}_static/book.js{version(out, "book.js")}"></script>',
-        ]
-    )
+    head = [
+        f'\n<script src="{up}_static/{name}{version(out, name)}"></script>'
+        for name in (["first.js", "fonts.js"] if FORMULA in text else ["first.js"])
+    ]
+    head += [
+        f'\n<noscript><link rel="stylesheet" href="{up}_static/fonts.css" /></noscript>',
+        f'\n<link rel="stylesheet" href="{up}_static/book.css{version(out, "book.css")}" />',
+    ]
+    # At the end, where they take nothing of the line while the style is on its way.
+    text = text.replace("</body>", "\n".join([*scripts, "</body>"]))
     # After what sets the character set and the title, before page-specific files.
-    return re.sub(r"(?=\s*<noscript>|\s*</head>)", lambda _: head, text, count=1)
+    return re.sub(r"(?=\s*<noscript>|\s*</head>)", lambda _: "".join(head), text, count=1)
 
 
 def version(out, name):
@@ -183,17 +193,6 @@ def used_words(pages, scripts):
     named = (names for page in pages for names in re.findall(r'\b(?:class|id)="([^"]*)"', page))
     words = {name for names in named for name in names.split()}
     return words | {word for script in scripts for word in re.findall(r"[\w-]+", script)}
-
-
-def in_formulas(page):
-    """The characters that KaTeX's fonts have to show on a page."""
-    for start in re.finditer(r'<span class="katex-html"', page):
-        depth = 0
-        for tag in re.compile(r"<(/?)span\b").finditer(page, start.start()):
-            depth += -1 if tag[1] else 1
-            if depth == 0:
-                yield from unescape(re.sub(r"<[^>]*>", "", page[start.start() : tag.start()]))
-                break
 
 
 def pruned(sheet, words, characters, out):
@@ -256,9 +255,9 @@ def cut_down(rule, text, characters, out):
     """Name, file and style of a font with no more than some characters; None if it has no use."""
     found = dict(re.findall(r"(font-[a-z]+):\s*([^;}]+)", rule))
     family = found["font-family"].replace("\\", "").strip("'\" ")
-    escaped = re.escape(family).replace("\\ ", r"\\? ")
+    style = {"weight": found.get("font-weight", "400"), "style": found.get("font-style", "normal")}
     address = re.search(r"url\(['\"]?([^)'\"]+\.ttf)", rule)
-    if not address or not re.search(escaped, text) or unused_face(rule, text):
+    if not address or not is_asked_for(family, style, text.replace("\\", "")):
         return None
     font = TTFont(out / "_static" / address[1], recalcTimestamp=False)
     wanted = {ord(character) for character in characters} & set(font.getBestCmap())
@@ -272,8 +271,16 @@ def cut_down(rule, text, characters, out):
     font.flavor = "woff"
     file = BytesIO()
     font.save(file)
-    style = {"weight": found.get("font-weight", "400"), "style": found.get("font-style", "normal")}
     return family, base64.b64encode(file.getvalue()).decode(), style
+
+
+def is_asked_for(family, style, text):
+    """Whether some rule names a font; those of KaTeX say the weight and the style beside it."""
+    blocks = [block for block in re.findall(r"\{([^{}]*)\}", text) if family in block]
+    if "KaTeX" not in family:
+        return bool(blocks)
+    wanted = style["weight"] == "700", style["style"] == "italic"
+    return wanted in [("font-weight:700" in b, "font-style:italic" in b) for b in blocks]
 
 
 def font_face(family, data, style):
@@ -283,17 +290,6 @@ def font_face(family, data, style):
         f'@font-face{{font-family:"{family}";font-weight:{style["weight"]};'
         f"font-style:{style['style']};src:{source}}}\n"
     )
-
-
-def unused_face(rule, text):
-    """Whether no rule asks KaTeX for the bold, or for the italic face of its upright font."""
-    about = "".join(re.findall(r"[^{}]*katex[^{}]*\{[^{}]*\}", text.replace(" ", "")))
-    bold, italic = "font-weight:700" in rule, "font-style:italic" in rule
-    if "KaTeX" not in rule:
-        return False
-    if bold and not re.search(r"font-weight:(700|bold)", about):
-        return True
-    return italic and "KaTeX_Main" in rule and "font-style:italic;font-weight" not in about
 
 
 def remove_unused(out):

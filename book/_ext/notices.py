@@ -43,7 +43,8 @@ def notices():
         for path in sorted((NPM / name).glob("LICENSE*")):
             yield name, path.read_text(encoding="utf-8")
     for path in sorted(FONTS.glob("LICENSE_*")):
-        yield f"matplotlib's font {path.name.removeprefix('LICENSE_')}", path.read_text("utf-8")
+        name = path.name.removeprefix("LICENSE_")
+        yield f"matplotlib's font {name}", path.read_text(encoding="utf-8")
 
 
 def write(app, exception):

@@ -28,7 +28,8 @@ def install(app, config):
         cwd=FOLDER,
         env=os.environ | {"PATH": os.pathsep.join(paths)},
         capture_output=True,
-        text=True,
+        encoding="utf-8",
+        errors="replace",
     )
     if run.returncode:
         raise ExtensionError(

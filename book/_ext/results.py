@@ -41,7 +41,7 @@ def results_file(env, page):
 def find(env, name, location):
     """A named result, as a notebook's output; an unknown or doubled name is a warning."""
     files = [results_file(env, page) for page in sorted(env.found_docs)]
-    pages = [json.loads(path.read_text()) for path in files if path.exists()]
+    pages = [json.loads(path.read_text(encoding="utf-8")) for path in files if path.exists()]
     found = [page[name] for page in pages if name in page]
     if len(found) != 1:
         known = sorted({key for page in pages for key in page})

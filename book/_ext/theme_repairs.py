@@ -48,12 +48,12 @@ def repair(app, exception):
     for path in Path(app.outdir).rglob("*.html"):
         if path.is_relative_to(Path(app.outdir, "_static")):
             continue
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         for pattern, replacement in (OF_THE_THEME | OF_THE_CONTENT).items():
             text, count = re.subn(pattern, replacement, text, flags=re.DOTALL)
             if count:
                 needed.add(pattern)
-        path.write_text(text)
+        path.write_text(text, encoding="utf-8")
     for pattern in UNUSED_FILES:
         for path in Path(app.outdir).glob(pattern):
             path.unlink()

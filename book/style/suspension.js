@@ -23,11 +23,6 @@
     for (const formula of document.querySelectorAll("article th math:not([aria-label])")) {
       formula.setAttribute("aria-label", formula.textContent);
     }
-    // A slider's handle says its label.
-    for (const handle of document.querySelectorAll(".noUi-handle:not([aria-label])")) {
-      const label = handle.closest(".jupyter-widgets")?.querySelector(".widget-label");
-      if (label?.textContent) handle.setAttribute("aria-label", label.textContent);
-    }
   };
   addEventListener("resize", reach);
   addEventListener("load", () => {

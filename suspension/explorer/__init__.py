@@ -17,21 +17,10 @@ from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
-from suspension.explorer.controls import CONTROLS, controls, native
-from suspension.explorer.family import Family
-from suspension.explorer.settings import (
-    ASKED,
-    COURSE,
-    CURVE,
-    DTS,
-    MOTIONS,
-    REFERENCE,
-    SCHEMES,
-    SPRING_END,
-    VIEWS,
-    VMAX,
-)
-from suspension.explorer.still import still
+from suspension.explorer.controls import CONTROLS, native
+from suspension.explorer.family import Family, Range
+from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
+from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.flight import fly
 from suspension.road import FlatRoad
@@ -43,7 +32,13 @@ __all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore", "page_script"
 
 PAGE = Path(__file__).parent / "page"
 PANELS = ("robot", "speeds", "forces", "stability")
-TRAITS = (*(control.trait for control in CONTROLS), "scheme_index", "time", "motion")
+NUMBERS = tuple(control.trait for control in CONTROLS)
+TRAITS = (*NUMBERS, "scheme_index", "time", "motion")
+WIDTHS = 4.0  # of a bump to either side of its middle: further away there is nothing of it
+CELLS = (512, 8192)  # steps of the curve over all speeds, at least and at most
+
+
+START = 1.2  # m/s, for a robot and a road like the problem's
 
 
 class Explorer(anywidget.AnyWidget):
@@ -81,19 +76,33 @@ class Explorer(anywidget.AnyWidget):
     time = traitlets.Float(0.0).tag(sync=True)
     motion = traitlets.Unicode("linear").tag(sync=True)
     view = traitlets.Unicode("forces").tag(sync=True)
+    controls = traitlets.Unicode().tag(sync=True)
     facts = traitlets.Dict().tag(sync=True)
     tables = traitlets.Dict().tag(sync=True)
 
     def __init__(
-        self, family, schemes, distance, *, compact=False, wide=False, presets=(), **settings
+        self,
+        family,
+        schemes,
+        distance,
+        speeds,
+        *,
+        asked=(),
+        spring_end=None,
+        compact=False,
+        wide=False,
+        presets=(),
+        **settings,
     ):
         self.family, self.schemes, self.distance = family, tuple(schemes), distance
-        self.compact, self.wide = compact, wide
-        self.sliders = ("v",) if compact else tuple(control.trait for control in CONTROLS)
+        self.asked, self.compact, self.wide = tuple(asked), compact, wide
+        self.sliders = ("v",) if compact else NUMBERS
+        self.ranges = {"v": Range(*speeds, True)} | family.ranges
         robot = family.robot
         # A run may end one step past `distance`, and the front wheel is further ahead.
-        start, stop = -robot.L1, distance + VMAX * DTS[-1] + robot.L2
+        start, stop = -robot.L1, distance + speeds[1] * DTS[-1] + robot.L2
         frame, table = shape_of(family.road, start, stop)
+        fewest, most = CELLS
         super().__init__(
             facts={
                 "distance": distance,
@@ -101,28 +110,59 @@ class Explorer(anywidget.AnyWidget):
                 "model": family.model(),
                 "road": frame,
                 # The size of the road's smallest feature, in units of its width.
-                "feature": 1.0 if family.has_bump else getattr(family.road, "sigma", 0.02),
+                "feature": 1.0 if family.has_bump else family.feature,
+                "cells": int(min(max(8 * distance / family.feature, fewest), most)),
+                "longestStep": family.longest_step,
                 "ranges": {
                     name: [reach.low, reach.high, reach.logarithmic]
-                    for name, reach in family.ranges.items()
+                    for name, reach in self.ranges.items()
                 },
                 "own": family.own,
                 "hasBump": family.has_bump,
+                "widths": WIDTHS,
                 "dts": DTS,
-                "asked": ASKED,
-                "springEnd": SPRING_END,
+                "asked": self.asked,
+                "springEnd": spring_end,
                 "schemes": [scheme_facts(scheme) for scheme in self.schemes],
                 "reference": scheme_facts(REFERENCE),
                 "curveScheme": scheme_facts(CURVE),
                 "panels": ["robot", "speeds"] if compact else list(PANELS),
                 "sliders": list(self.sliders),
                 "compact": compact,
+                "wide": wide,
                 "presets": presets,
                 "python": _python(family, self.schemes, distance),
             },
             tables={"road": table.astype("<f8").tobytes()},
             **settings,
         )
+        self.controls = native(self)
+
+    @traitlets.validate(*NUMBERS)
+    def _check_number(self, proposal):
+        """Refuse what its slider does not offer, and above all what is no number."""
+        name = proposal["trait"].name
+        return _in_range(name, proposal["value"], self.ranges)
+
+    @traitlets.validate("time")
+    def _check_time(self, proposal):
+        return _fraction("time", proposal["value"])
+
+    @traitlets.validate("scheme_index")
+    def _check_scheme(self, proposal):
+        return _checks.one_of("scheme_index", proposal["value"], range(len(self.schemes)))
+
+    def know_critical_speeds(self):
+        """Hand the page the exact critical speeds at the current settings, for a `GaussianBump`.
+
+        It computes them at any settings to five digits; these are the ones that a text beside it
+        names, and they take a moment, so they wait until the explorer is shown.
+        """
+        if knows_all_speeds(self):
+            at = {name: getattr(self, name) for name in ("k", "c", "height", "sigma")}
+            if self.facts.get("exact", {}).get("at") != at:
+                exact = {"at": at, "critical": critical(self).tolist()}
+                self.facts = self.facts | {"exact": exact}
 
     @property
     def robot(self):
@@ -166,26 +206,46 @@ class Explorer(anywidget.AnyWidget):
 
 
 class ExplorerBox(ipywidgets.VBox):
-    """The sliders above the `Explorer` they move; ``box.explorer`` is the latter.
+    """A frame around an `Explorer`; ``box.explorer`` is the latter.
 
-    As HTML it is the same controls without a kernel, and a still picture of the same settings for
-    readers without scripts.
+    It is displayed twice: as a still picture, which is also the explorer of a built page and what
+    a notebook shows before anything runs, and as the widget, which hides the still picture as
+    long as it lives.
     """
 
-    def __init__(self, explorer, sliders):
+    def __init__(self, explorer):
         self.explorer = explorer
-        super().__init__([sliders, explorer])
-        self.add_class("suspension-explorer-box")
+        super().__init__([explorer])
+        self.add_class("suspension-explorer-frame")
 
     def _repr_mimebundle_(self, **kwargs):
         return super()._repr_mimebundle_(**kwargs) | {"text/html": self.html()}
 
+    def _ipython_display_(self):
+        self._display({})
+
+    def _display(self, metadata):
+        drawn = self._draw()
+        html = self._html(drawn, " hidden", RUN_NOTEBOOK)  # a page takes both out
+        page = {"text/html": html, "image/svg+xml": picture(drawn)}
+        display(page, raw=True, metadata=metadata)
+        # Nothing as HTML: a page, or a notebook that is not trusted, has the first display.
+        widget = super()._repr_mimebundle_() | {"text/html": ""}
+        display(widget, raw=True)
+
     def show(self, name):
         """Display the explorer under a name; ``{explorer} name`` shows it on another page."""
-        display(self, metadata={"scrapbook": {"name": name, "mime_prefix": ""}})
+        self._display({"scrapbook": {"name": name, "mime_prefix": ""}})
 
     def html(self):
         """The explorer as HTML; `page_script` brings it to life."""
+        return self._html(self._draw())
+
+    def _draw(self):
+        self.explorer.know_critical_speeds()
+        return draw(self.explorer)
+
+    def _html(self, drawn, hidden="", below=""):
         explorer = self.explorer
         state = {name: getattr(explorer, name) for name in (*TRAITS, "view", "facts")}
         state["tables"] = {
@@ -195,8 +255,8 @@ class ExplorerBox(ipywidgets.VBox):
         kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
         return (
             f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
-            f'<div class="se-controls">{native(explorer)}</div>'
-            f'<div class="se-place">{still(explorer)}</div></div>'
+            f'<div class="se-controls"{hidden}>{explorer.controls}</div>'
+            f'<div class="se-place">{still(explorer, drawn)}{below}</div></div>'
             f'<script type="application/json" class="se-state">{text}</script></div>'
         )
 
@@ -215,7 +275,7 @@ def explore(
     robot,
     road,
     *,
-    v=1.2,
+    v=None,
     dt=0.001,
     k=None,
     c=None,
@@ -225,7 +285,10 @@ def explore(
     time=None,
     motion="linear",
     view="forces",
-    distance=COURSE,
+    distance=None,
+    speeds=None,
+    asked=(),
+    spring_end=None,
     schemes=SCHEMES,
     presets=(),
     compact=False,
@@ -233,14 +296,16 @@ def explore(
 ):
     """Sliders for speed, step, spring, damper, bump and scheme, and pictures that follow them.
 
+    Where the sliders begin and end follows from the robot and the road.
+
     Parameters
     ----------
     robot : Robot
         Its own springs and dampers are marked; others keep the ratios k2 / k1 and c2 / c1.
     road : callable
         ``road(x) -> (H, dHdx)``; the bump of a `GaussianBump` can be changed.
-    v : float
-        Speed to start with, m/s, 0.1 to 25.
+    v : float, optional
+        Speed to start with, m/s; 1.2 for a robot and a road like the problem's.
     dt : float
         Time step to start with, s, 0.25 to 200 ms.
     k, c : float, optional
@@ -256,8 +321,17 @@ def explore(
         What is drawn in front: the linear model, or wheels that leave the ground.
     view : {"forces", "stability", "robot", "speeds"}
         The panel drawn largest.
-    distance : float
-        How far the robot drives, m.
+    distance : float, optional
+        How far the robot drives, m; far enough for both wheels to pass the bump, and to come to
+        rest: 1.25 for the problem's robot and bump.
+    speeds : (float, float), optional
+        Where the slider of the speed begins and ends, m/s; from a tenth to 25 times what the
+        problem's robot takes for slow or fast, if None.
+    asked : sequence of float
+        Speeds to mark in the pictures and to have buttons, m/s.
+    spring_end : float, optional
+        The largest compression at which the springs were measured, m; what goes further is said.
+        If None, nothing is known of it, and nothing said.
     schemes : sequence of Scheme
         What can be chosen; `scheme` is added if it is not among them.
     presets : sequence of (label, settings)
@@ -288,10 +362,21 @@ def explore(
         schemes.append(scheme)
     names = [known.name for known in schemes]
     chosen = getattr(scheme, "name", scheme)
+    distance = family.way if distance is None else _checks.positive("distance", distance)
+    if spring_end is not None:
+        spring_end = _checks.positive("spring_end", spring_end)
+    asked = _speeds("asked", asked)
+    low, high = family.speeds if speeds is None else _ends(speeds)
+    if speeds is None:  # what is asked for by name can be reached
+        low, high = min([low, *asked]), max([high, *asked])
+    ranges = {"v": Range(low, high, True)} | family.ranges
+    v = min(max(float(f"{START * family.scale:.3g}"), low), high) if v is None else v
     settings = {"v": v, "dt": dt, "k": k, "c": c, "height": height, "sigma": sigma}
     for name, value in settings.items():
         own = family.own.get(name, value)  # a speed and a step there must be
-        settings[name] = _in_range(name, own if value is None else value, family)
+        settings[name] = _in_range(name, own if value is None else value, ranges)
+    for speed in asked:
+        _in_range("v", speed, ranges, "asked")
     if not family.has_bump and not (height is None and sigma is None):
         raise ValueError("height and sigma must be left out, for the road is no GaussianBump")
     if time is not None:
@@ -299,11 +384,14 @@ def explore(
     explorer = Explorer(
         family,
         schemes,
-        _checks.positive("distance", distance),
+        distance,
+        (low, high),
+        asked=asked,
+        spring_end=spring_end,
         scheme_index=names.index(_checks.one_of("scheme", chosen, names)),
         motion=_checks.one_of("motion", motion, MOTIONS),
         view=_checks.one_of("view", view, VIEWS),
-        presets=[_preset(preset, names, family) for preset in presets],
+        presets=[_preset(preset, names, ranges) for preset in presets],
         compact=bool(compact),
         wide=bool(wide),
         **settings,
@@ -311,7 +399,21 @@ def explore(
     if time is None:
         time = min(_moment_to_show(explorer) * explorer.v / distance, 1)
     explorer.time = float(time)
-    return ExplorerBox(explorer, controls(explorer))
+    return ExplorerBox(explorer)
+
+
+def _speeds(name, values):
+    """Speeds as floats; each must be positive."""
+    return tuple(float(_checks.positive(name, v)) for v in values)
+
+
+def _ends(speeds):
+    """The ends of a range of speeds."""
+    try:
+        low, high = speeds
+    except (TypeError, ValueError):
+        raise ValueError(f"speeds must be a pair (low, high) in m/s, not {speeds!r}") from None
+    return tuple(map(float, _checks.ends("speeds[0]", low, "speeds[1]", high)))
 
 
 def _moment_to_show(explorer):
@@ -324,7 +426,7 @@ def _moment_to_show(explorer):
     return run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
 
 
-def _preset(preset, names, family):
+def _preset(preset, names, ranges):
     """A button's label and its settings, as the page reads them."""
     label, settings = preset
     checked = {}
@@ -335,8 +437,8 @@ def _preset(preset, names, family):
             value = _checks.one_of("motion of presets", value, MOTIONS)
         elif name == "time":
             value = _fraction("time of presets", value)
-        elif name in family.ranges:
-            value = _in_range(name, value, family, f"{name} of presets")
+        elif name in ranges:
+            value = _in_range(name, value, ranges, f"{name} of presets")
         else:
             raise ValueError(f"presets must not set {name!r}")
         checked[name] = value
@@ -347,9 +449,9 @@ def _fraction(name, value):
     return _checks.number(name, value, "a fraction from 0 to 1", lambda time: 0 <= time <= 1)
 
 
-def _in_range(name, value, family, called=None):
+def _in_range(name, value, ranges, called=None):
     """A setting as a float, checked against what its slider offers."""
-    reach = family.ranges[name]
+    reach = ranges[name]
     allowed = f"{reach.low:g} to {reach.high:g}"
     return _checks.number(called or name, value, allowed, lambda number: number in reach)
 

@@ -1,12 +1,9 @@
-"""The sliders and buttons, as ipywidgets, and the same ones as HTML for a page without a kernel."""
+"""The sliders and buttons as HTML, the same ones in JupyterLab and in a page without a kernel."""
 
 from html import escape
 from typing import NamedTuple
 
-import ipywidgets
-import numpy as np
-
-__all__ = ["CONTROLS", "Control", "controls", "native"]
+__all__ = ["CONTROLS", "Control", "native"]
 
 
 class Control(NamedTuple):
@@ -35,47 +32,12 @@ def offered(explorer):
     return [control for control in chosen if explorer.family.has_bump or not control.bump_only]
 
 
-def controls(explorer):
-    """The controls of an `Explorer`, joined to its traits; without a kernel they still are.
-
-    Returns
-    -------
-    ipywidgets.Box
-    """
-    joined = []
-    for control in offered(explorer):
-        joined.append((_slider(explorer, control), "value", control.trait))
-    schemes = ipywidgets.ToggleButtons(
-        options=[scheme.name for scheme in explorer.schemes],
-        index=explorer.scheme_index,
-        description="Scheme",
-    )
-    joined.append((schemes, "index", "scheme_index"))
-    for widget, name, trait in joined:
-        widget.layout.width = "auto"
-        ipywidgets.jslink((widget, name), (explorer, trait))
-    return ipywidgets.Box([widget for widget, _, _ in joined])
-
-
-def _slider(explorer, control):
-    """One slider; ipywidgets shows a value in the unit of the trait."""
-    reach = explorer.family.ranges[control.trait]
-    value = getattr(explorer, control.trait)
-    unit = {"dt": "s", "height": "m", "sigma": "m"}.get(control.trait, control.unit)
-    options = {"description": f"{control.label} ({unit})", "readout_format": ".3g"}
-    if reach.logarithmic:
-        low, high = np.log10(reach.low), np.log10(reach.high)
-        # A step of 0 leaves a typed value as it is; any other would round it.
-        return ipywidgets.FloatLogSlider(value, min=low, max=high, step=0, **options)
-    step = (reach.high - reach.low) / 1000
-    return ipywidgets.FloatSlider(value, min=reach.low, max=reach.high, step=step, **options)
-
-
 def native(explorer):
-    """The same controls as HTML: a range and a number for each slider, buttons for the schemes.
+    """The controls as HTML: a range and a number for each slider, buttons for the schemes.
 
-    The page's script fills in the values and moves them; without it they are not shown. So are the
-    buttons of the author's own presets.
+    A script fills in the values and moves them; without it they are not shown. So are the buttons
+    of the author's own presets. JupyterLab gets them, too, rather than the sliders of ipywidgets:
+    those round what Python has set and write it back, and an arrow key moves them by a tenth.
     """
     rows = []
     for control in offered(explorer):

@@ -9,10 +9,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from suspension.explorer.settings import DTS, VMAX, VMIN
+from suspension.explorer.settings import DTS
 from suspension.road import GaussianBump
 
 __all__ = ["Family", "Range", "affine"]
+
+# What fits the problem's robot and bump, in units of their own; another family gets as much.
+SPEEDS = (0.1, 25.0)  # m/s, while width times frequency is near UNIT
+UNIT = 0.95  # m/s
+WAY = 28.5  # widths of the bump, beyond the place where the rear wheel meets its middle
+WAYS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
+WIDTHS = 0.135  # of a feature in wheelbases, of a road that does not say how wide its own are
+SHORTEST = 0.0156  # of the shortest time constant, the longest step of a flight
 
 
 @dataclass(frozen=True)
@@ -72,18 +80,50 @@ class Family:
         return {"k": robot.k1, "c": c, "height": road.height, "sigma": road.sigma}
 
     @property
+    def feature(self):
+        """The size of the road's smallest feature, m: a bump's width."""
+        robot = self.robot
+        return getattr(self.road, "sigma", None) or WIDTHS * (robot.L1 + robot.L2)
+
+    @property
+    def scale(self):
+        """How fast this robot lives on its road, beside the problem's: 1, 2 or 5 times a power of
+        ten. A speed means the same as the problem's when it crosses a feature's width in as many
+        periods of the heave."""
+        robot = self.robot
+        unit = self.feature * np.sqrt((robot.k1 + robot.k2) / robot.m) / UNIT
+        steps = np.multiply.outer(10.0 ** np.arange(-9, 10), [1, 2, 5]).ravel()
+        return float(steps[np.abs(np.log(steps / unit)).argmin()])
+
+    @property
+    def speeds(self):
+        """Speeds worth looking at, lowest and highest, m/s."""
+        return tuple(float(f"{v * self.scale:.3g}") for v in SPEEDS)
+
+    @property
+    def way(self):
+        """How far the robot drives until both wheels have long passed a bump, m."""
+        centre = getattr(self.road, "centre", 0.3 / 0.0288 * self.feature)
+        return _round_up(max(centre, 0.0) + self.robot.L1 + WAY * self.feature, WAYS)
+
+    @property
+    def longest_step(self):
+        """Of a flight, s."""
+        return SHORTEST / max(np.abs(self.robot.eigenvalues).max(), 1e-9)
+
+    @property
     def ranges(self):
-        """The range of every slider by name."""
+        """The range of every slider by name, but for the speed's, which the explorer is told."""
         own = self.own
-        far = {name: 2 * value for name, value in own.items()}
-        softer = min(1.0, own["k"] / 500)
+        k, height, sigma = own["k"], own["height"], own["sigma"]
+        damping = 0.12 * np.sqrt(2 * k * self.robot.m)  # an eighth of the critical one
+        far = _round_up(2 * abs(height) or sigma)
         return {
-            "v": Range(VMIN, VMAX, True),
             "dt": Range(DTS[0], DTS[-1], True),
-            "k": Range(200 * softer, max(2500.0, far["k"]), True),
-            "c": Range(0.0, max(6.0, far["c"])),
-            "height": Range(min(0.0, far["height"]), max(0.06, far["height"])),
-            "sigma": Range(min(0.01, own["sigma"] / 2), max(0.1, far["sigma"]), True),
+            "k": Range(max(min(200.0, 0.4 * k), 0.1 * k), min(max(2500.0, 2 * k), 10 * k), True),
+            "c": Range(0.0, max(_round_up(damping), 2 * own["c"])),
+            "height": Range(-far, 0.0) if height < 0 else Range(0.0, far),
+            "sigma": Range(_round_down(0.4 * sigma), _round_up(3.3 * sigma), True),
         }
 
     def robot_at(self, k, c):
@@ -106,7 +146,10 @@ class Family:
         model : dict
             ``C`` and ``D`` are dicts of a constant, "1", and a matrix for each parameter; ``S``,
             ``P`` and ``e`` do not depend on them, nor do ``Cp`` and ``Dp``, which give the
-            springs' compressions ``p = Cp w + Dp u``.
+            springs' compressions ``p = Cp w + Dp u``. ``contact`` says when a wheel presses:
+            while each of its conditions, `of` a pair of these matrices, is positive, or zero
+            where it need not be `strict`; `force` and `length` name the pairs that give the
+            force of a wheel that presses, and minus the height of one that does not.
         """
         robot = self.robot
         still, one = np.zeros(2), np.ones(2)
@@ -118,7 +161,29 @@ class Family:
             "e": robot.e.tolist(),
             "Cp": (-np.column_stack([one, still, robot.arms, still])).tolist(),
             "Dp": np.eye(2, 4).tolist(),
+            "contact": {
+                "conditions": [
+                    {"of": ["Cp", "Dp"], "strict": False},
+                    {"of": ["C", "D"], "strict": True},
+                ],
+                "force": 1,
+                "length": 0,
+            },
         }
+
+
+def _round_up(x, steps=range(1, 10)):
+    """The next number above x that is one of some steps times a power of ten."""
+    ten = 10.0 ** np.floor(np.log10(x))
+    steps = [*steps, 10]
+    found = next(step for step in steps if step * ten >= x * (1 - 1e-9))
+    return float(f"{found * ten:.12g}")
+
+
+def _round_down(x):
+    """The next number below x with one digit."""
+    ten = 10.0 ** np.floor(np.log10(x))
+    return float(f"{np.floor(x / ten * (1 + 1e-9)) * ten:.12g}")
 
 
 def affine(matrix, k, c=1.0):

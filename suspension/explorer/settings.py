@@ -1,32 +1,23 @@
-"""What the explorer offers, where its sliders begin and end, and how it is judged."""
+"""What every explorer offers, and the methods by which it judges a run."""
 
 import numpy as np
 
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4, Scheme
 
 __all__ = [
-    "ASKED",
-    "COURSE",
     "CURVE",
     "DTS",
     "MOTIONS",
     "REFERENCE",
     "SCHEMES",
-    "SPRING_END",
     "VIEWS",
-    "VMAX",
-    "VMIN",
 ]
 
 SCHEMES = (EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4)
-VMIN, VMAX = 0.1, 25.0  # m/s
-ASKED = (0.25, 1.2, 5.0, 10.0)  # the speeds of the problem's Questions 2 and 3, m/s
-COURSE = 1.25  # m, how far the problem's runs go
 # Round steps, s, fine to coarse: an arrow key goes from one to the next, any between can be set.
 DTS = (0.00025, 0.0005, 0.001, 0.002, 0.0025, 0.005, 0.01, 0.02, 0.05, 0.06, 0.07, 0.08, 0.1, 0.2)
 MOTIONS = ("linear", "flying")
 VIEWS = ("forces", "stability", "robot", "speeds")
-SPRING_END = 0.0165  # m, the largest compression that was measured (`springs.fit_spring`)
 
 # What every run is judged by: Gauss's methods, stable at any step; the one with two stages for the
 # curve over all speeds.

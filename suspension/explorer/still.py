@@ -7,29 +7,76 @@ from urllib.parse import quote
 import matplotlib.pyplot as plt
 import numpy as np
 
-from suspension.contact import margin
+from suspension.contact import margin, regimes_between
 from suspension.critical import zeros
-from suspension.explorer.settings import ASKED, COURSE, VMAX, VMIN
 from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
 from suspension.forces import WHEEL
 from suspension.least_force import minima
 from suspension.report.words import join, quantity
 
-__all__ = ["still"]
+__all__ = ["RUN_NOTEBOOK", "critical", "draw", "knows_all_speeds", "picture", "still"]
 
 DEFINITIONS = re.compile(r"<defs>.*?</defs>", re.DOTALL)  # the letters' shapes
 PATH = re.compile(r'(?<= d=")[^"]*')
 NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
+SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
+FAR = 4  # times the usual way
+RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
+# What a notebook says below it, and hides if it has no kernel: that there is no widget.
+RUN_NOTEBOOK = (
+    f'<p class="se-run"><strong>{RUN}</strong></p>'
+    "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + .jp-OutputArea-child > "
+    ".jupyter-widgets:not(:has(*)) { display: none; }</style>"
+)
 
 
-def still(explorer):
-    """The same picture as an HTML image, with a text for those who cannot see it."""
+def draw(explorer):
+    """The panels as SVG, once the explorer knows its critical speeds."""
     run = explorer.trajectory()
-    figure = _compact(explorer, run) if explorer.compact else _panels(explorer, run)
-    source = f"data:image/svg+xml,{quote(_svg(figure), safe=' /:;,=()')}"
-    text = _describe(explorer, run)
+    return _svg(_compact(explorer, run) if explorer.compact else _panels(explorer, run))
+
+
+def still(explorer, drawn):
+    """What was drawn as an HTML image, with a text for those who cannot see it."""
+    source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
+    text = _describe(explorer, explorer.trajectory())
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
+
+
+def picture(drawn):
+    """What was drawn, with what to do to drive it written below."""
+    width, height = map(float, SIZE.search(drawn).groups())
+    words = (
+        f'<text x="{width / 2:g}" y="{height + 15:g}" text-anchor="middle" '
+        f'font-family="sans-serif" font-size="12" font-weight="bold">{RUN}</text>'
+    )
+    svg = drawn.replace(
+        f'viewBox="0 0 {width:g} {height:g}"', f'viewBox="0 0 {width:g} {height + 24:g}"'
+    )
+    svg = svg.replace(f'height="{height:g}pt"', f'height="{height + 24:g}pt"', 1)
+    return svg.replace("</svg>", f"{words}</svg>")
+
+
+def knows_all_speeds(explorer):
+    """Whether the exact least forces are at hand: of one bump, on a way that is not endless."""
+    return explorer.family.has_bump and explorer.distance <= FAR * explorer.family.way
+
+
+def critical(explorer):
+    """The speeds on the slider at which the exact margin is zero, for a `GaussianBump`."""
+    robot, road = explorer.robot, explorer.road
+
+    def least(x):
+        v = np.exp(x)
+        return margin(robot, road, v, explorer.distance / v)
+
+    return np.exp(zeros(least, np.log(_speeds(explorer))))
+
+
+def _speeds(explorer):
+    reach = explorer.ranges["v"]
+    return np.geomspace(reach.low, reach.high, SPEEDS)
 
 
 def _svg(figure):
@@ -53,7 +100,7 @@ def _shorten(text):
 
 def _panels(explorer, run):
     """The panels at the moment shown."""
-    has_speeds = _knows_all_speeds(explorer)
+    has_speeds = knows_all_speeds(explorer)
     top = ["robot", "speeds"] if has_speeds else ["robot", "robot"]
     with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(
@@ -70,18 +117,13 @@ def _panels(explorer, run):
 
 def _compact(explorer, run):
     """The robot, and the curve over all speeds if it is known."""
-    names = [["robot"], ["speeds"]] if _knows_all_speeds(explorer) else [["robot"]]
+    names = [["robot"], ["speeds"]] if knows_all_speeds(explorer) else [["robot"]]
     with plt.style.context("suspension.figures.report"):
         figure, axes = plt.subplot_mosaic(names, figsize=(7.2, 5))
         _draw_robot(explorer, run, axes["robot"])
         if "speeds" in axes:
             _draw_speeds(explorer, axes["speeds"])
     return figure
-
-
-def _knows_all_speeds(explorer):
-    """The exact least forces are those of one bump on the course's way."""
-    return explorer.family.has_bump and explorer.distance == COURSE
 
 
 def _draw_robot(explorer, run, ax):
@@ -98,17 +140,25 @@ def _draw_robot(explorer, run, ax):
 
 def _draw_speeds(explorer, ax):
     robot, road = explorer.robot, explorer.road
-    v = np.geomspace(VMIN, VMAX, SPEEDS)
-    least = np.array([[least.force for least in minima(robot, road, speed)] for speed in v]).T
-    critical = np.exp(zeros(lambda x: margin(robot, road, np.exp(x)), np.log(v)))
-    plot_margin(v, least, critical, ASKED, ax=ax)
+    v, way = _speeds(explorer), explorer.distance
+
+    def margin_at(speed):
+        return margin(robot, road, speed, way / speed)
+
+    least = np.transpose(
+        [[dip.force for dip in minima(robot, road, speed, way / speed)] for speed in v]
+    )
+    critical = np.asarray(explorer.facts["exact"]["critical"])
+    inside = critical[(v[0] < critical) & (critical < v[-1])]
+    found = regimes_between(margin_at, [v[0], *inside, v[-1]])
+    plot_margin(v, least, found, explorer.asked, ax=ax)
     ax.legend().remove()
 
 
 def _describe(explorer, run):
     """What the picture says, in words."""
     panels = ["the robot on the road"]
-    if _knows_all_speeds(explorer):
+    if knows_all_speeds(explorer):
         panels.append("the least force of each wheel at every speed")
     if not explorer.compact:
         panels += ["both normal forces", f"the stability region of {run.scheme.name}"]

@@ -2,9 +2,11 @@
 
 Nothing is computed here and nothing is shown; ``plt.style.use("suspension.figures.report")`` sets
 the style. One module for each subject: `regression`, `stability`, `forces`, `signals`, `errors`,
-`speeds`, `measured`, `choice`, and `robot`, the robot itself, still or moving.
+`speeds`, `similarity`, `air`, `measured`, `choice`, and `robot`, the robot itself, still or
+moving.
 """
 
+from suspension.figures.air import plot_energy, plot_free_wheels, plot_heaviest_wheel
 from suspension.figures.choice import (
     plot_demand_map,
     plot_front,
@@ -31,6 +33,7 @@ from suspension.figures.regression import (
 )
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
+from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
 from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
 
@@ -39,18 +42,23 @@ __all__ = [
     "animate_robot",
     "film",
     "plot_all_forces",
+    "plot_chart",
+    "plot_comb",
     "plot_confidence_region",
     "plot_contact_states",
     "plot_demand_map",
+    "plot_energy",
     "plot_errors",
     "plot_experiments",
     "plot_fit",
     "plot_flight",
     "plot_forces",
+    "plot_free_wheels",
     "plot_front",
     "plot_gains",
     "plot_growth",
     "plot_heave",
+    "plot_heaviest_wheel",
     "plot_margin",
     "plot_margin_map",
     "plot_margins",
@@ -72,4 +80,6 @@ __all__ = [
     "plot_stop_regions",
     "plot_stop_stiffness",
     "plot_travel",
+    "plot_vehicles",
+    "plot_window",
 ]

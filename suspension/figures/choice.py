@@ -1,4 +1,4 @@
-"""Figures of Part VIII: the robot as a filter, maps for a choice of suspension, a rough road."""
+"""Figures of Part IX: the robot as a filter, maps for a choice of suspension, a rough road."""
 
 import numpy as np
 
@@ -72,7 +72,7 @@ def plot_ripples(v, margin, swings, single, exact, axes):
     return axes
 
 
-def plot_demand_map(k, c, values, levels, marks, label, ax=None):
+def plot_demand_map(k, c, values, levels, marks, label, contact=None, ax=None):
     """What suspensions give or ask for, over stiffness and damping, both on logarithmic axes.
 
     Parameters
@@ -81,16 +81,19 @@ def plot_demand_map(k, c, values, levels, marks, label, ax=None):
         Stiffness, N/m, and damping, N s/m.
     values : array_like, shape (m, n)
     levels : sequence of float
-        Where to draw lines, in order; the one at zero is drawn thick.
+        Where colours change, in order.
     marks : dict of str to (float, float)
         Suspensions by name: k and c.
     label : str
         What the values are, with their unit.
+    contact : array_like, shape (m, n), optional
+        Positive where contact is kept and negative where it is lost: a white line parts them.
     """
     ax = axes_or_new(ax)
-    filled = ax.contourf(k, c, values, levels, cmap="cividis", extend="both")
-    if levels[0] < 0 < levels[-1]:
-        ax.contour(k, c, values, [0], colors="w", linewidths=2)
+    extend = "both" if levels[0] else "max"
+    filled = ax.contourf(k, c, values, levels, cmap="cividis", extend=extend)
+    if contact is not None and np.min(contact) < 0 < np.max(contact):
+        ax.contour(k, c, contact, [0], colors="w", linewidths=2)
     for marker, (name, place) in zip(MARKERS, marks.items()):
         ax.plot(*place, marker, color="k", mfc="white", ms=6, ls="", label=name)
     ax.set(xscale="log", yscale="log", xlabel="stiffness $k$ (N/m)", ylabel="damping $c$ (N s/m)")
@@ -107,26 +110,28 @@ def plot_demand_map(k, c, values, levels, marks, label, ax=None):
     return ax
 
 
-def plot_front(compression, margin, acceleration, marks, ax=None):
+def plot_front(compression, acceleration, margin, marks, ax=None):
     """The best compromises of three criteria: two as axes, the third as colour.
 
     Parameters
     ----------
-    compression, margin, acceleration : array_like, shape (n,)
-        m, N and m/s^2 of each.
+    compression, acceleration, margin : array_like, shape (n,)
+        m, m/s^2 and N of each; the margin is 0 where contact is lost.
     marks : dict of str to (float, float)
-        Suspensions by name: compression, m, and margin, N.
+        Suspensions by name: compression, m, and acceleration, m/s^2.
     """
     ax = axes_or_new(ax)
-    travel = 1000 * np.asarray(compression)
-    dots = ax.scatter(travel, margin, c=acceleration, cmap="cividis", s=16)
-    for marker, (name, (travel, force)) in zip(MARKERS, marks.items()):
+    travel, acceleration = 1000 * np.asarray(compression), np.asarray(acceleration)
+    kept = np.asarray(margin) > 0
+    ax.plot(travel[~kept], acceleration[~kept], "o", color="0.5", mfc="none", ms=4, ls="")
+    style = {"cmap": "cividis", "s": 16, "vmin": 0}
+    dots = ax.scatter(travel[kept], acceleration[kept], c=np.asarray(margin)[kept], **style)
+    for marker, (name, (travel, felt)) in zip(MARKERS, marks.items()):
         style = {"mfc": "white", "mec": "k", "ms": 8, "ls": "", "zorder": 4}
-        ax.plot(1000 * travel, force, marker, label=name, **style)
-    ax.axhline(0, color="0.2", lw=0.9)
-    ax.set(xlabel="largest compression (mm)", ylabel="least margin (N)")
-    ax.legend(loc="lower right")
-    ax.figure.colorbar(dots, ax=ax, label="largest acceleration (m/s²)")
+        ax.plot(1000 * travel, felt, marker, label=name, **style)
+    ax.set(xlabel="largest compression (mm)", ylabel="largest acceleration (m/s²)", ylim=(0, None))
+    ax.legend(loc="upper right")
+    ax.figure.colorbar(dots, ax=ax, label="least margin (N)")
     return ax
 
 
@@ -143,13 +148,13 @@ def plot_margins(v, margins, asked=(), ax=None):
         Speeds to mark on the curves.
     """
     ax = axes_or_new(ax)
-    ax.axhspan(-1e3, 0, color="#fbe3d6", lw=0, zorder=0)
+    ax.axhspan(-1e3, 0, color="#fbe3d6", lw=0, zorder=0)  # of the curves only the sign counts there
     for i, (name, margin) in enumerate(margins.items()):
         style = {"color": f"C{i}"}
         ax.plot(v, margin, ls=LINES[i], label=name, **style)
         ax.plot(asked, np.interp(asked, v, margin), MARKERS[i], mfc="white", ms=5, **style)
-    low = min(np.min(margin) for margin in margins.values())
-    ax.set(ylabel="margin (N)", ylim=(max(1.1 * low, -40), 9))
+    high = max(np.max(margin) for margin in margins.values())
+    ax.set(ylabel="margin (N)", ylim=(-0.25 * high, 1.2 * high))
     speed_axis(ax, v)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=4)
     return ax

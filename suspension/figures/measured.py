@@ -51,14 +51,14 @@ def plot_spring_laws(x, forces, data, at_rest, farthest, ax=None):
 
 
 def plot_measured_margins(v, margins, critical, asked=(), ax=None):
-    """Least force on the way against speed for several laws, cut off far below zero.
+    """Least force on the way against speed for several laws; zero where contact is lost.
 
     Parameters
     ----------
     v : array_like, shape (n,)
         Speeds, m/s, in order.
     margins : dict of str to array_like, shape (n,)
-        N, for each law.
+        N, for each law; what is negative is drawn as zero.
     critical : dict of str to array_like
         Critical speeds, m/s, for each law.
     asked : sequence of float
@@ -66,16 +66,18 @@ def plot_measured_margins(v, margins, critical, asked=(), ax=None):
     """
     ax = axes_or_new(ax)
     speed_axis(ax, v)
-    top = max(np.max(margin) for margin in margins.values())
-    ax.axhspan(-2.5 * top, 0, color="#fbe3d6", lw=0, zorder=0)
     ax.axhline(0, color="0.2", lw=0.9)
     for speed in asked:
         ax.axvline(speed, color="0.6", lw=0.8, ls=":")
     for i, (name, margin) in enumerate(margins.items()):
-        ax.plot(v, margin, label=name, **_style(i))
+        # The zeros belong to the curve, so that it ends where they are.
+        places = np.concatenate([v, critical[name]])
+        forces = np.concatenate([np.maximum(margin, 0), np.zeros(len(critical[name]))])
+        order = np.argsort(places)
+        ax.plot(places[order], forces[order], label=name, **_style(i))
         marks = {"mfc": "white", "ms": 6, "zorder": 4, "color": f"C{i}"}
         ax.plot(critical[name], np.zeros(len(critical[name])), MARKERS[i], **marks)
-    ax.set(ylabel="least normal force (N)", ylim=(-2.5 * top, 1.15 * top))
+    ax.set(ylabel="least normal force (N)", ylim=(-0.3, None))
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=4, columnspacing=1.2)
     return ax
 
@@ -135,27 +137,29 @@ def plot_stop_regions(scheme, eigenvalues, dts, window, ax=None):
     return ax
 
 
-def plot_stop_stiffness(ratio, margins, marked, ax=None):
-    """Margin at several speeds against the stiffness of the stop.
+def plot_stop_stiffness(ratio, felt, kept, marked, ax=None):
+    """Largest acceleration at several speeds against the stiffness of the stop.
 
     Parameters
     ----------
     ratio : array_like, shape (n,)
         Stiffness of the stop over that of the spring.
-    margins : dict of float to array_like, shape (n,)
-        For each speed in m/s: N.
+    felt, kept : dict of float to array_like, shape (n,)
+        For each speed in m/s: acceleration, m/s^2, and whether contact is kept.
     marked : dict of str to float
         Stops to mark, by name: their ratio.
     """
     ax = axes_or_new(ax)
-    for i, (v, margin) in enumerate(margins.items()):
-        ax.semilogx(ratio, margin, label=f"{v:g} m/s", **_style(i))
-    ax.axhline(0, color="0.2", lw=0.9)
+    for i, (v, values) in enumerate(felt.items()):
+        ax.loglog(ratio, values, label=f"{v:g} m/s", **_style(i))
+        for keeps, fill in ((True, f"C{i}"), (False, "white")):
+            these = np.flatnonzero(np.asarray(kept[v]) == keeps)
+            style = {"color": f"C{i}", "mfc": fill, "ms": 5, "ls": ""}
+            ax.plot(np.asarray(ratio)[these], np.asarray(values)[these], MARKERS[i], **style)
     for name, place in marked.items():
         ax.axvline(place, color="0.5", lw=0.9, ls=":")
-        ax.text(place, 0.02, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
-    ax.set_yscale("symlog", linthresh=10)
+        ax.text(place, 0.94, f" {name}", transform=ax.get_xaxis_transform(), color="0.3")
     ax.set(xlabel=r"stop / spring stiffness $k_\mathrm{s}/k$")
-    ax.set(ylabel="least normal force (N)")
+    ax.set(ylabel="largest acceleration (m/s²)")
     ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     return ax

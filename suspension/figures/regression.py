@@ -22,12 +22,11 @@ def plot_fit(fit, data, level=0.95, ax=None):
     """
     ax = axes_or_new(ax)
     x = np.linspace(0, data["delta_over_delta_max"].max(), 201)
-    mean = fit.results.get_prediction(np.vander(x, 3, increasing=True))
-    low, high = mean.conf_int(alpha=1 - level).T
+    low, high = fit.band(x, level)
     ax.fill_between(
         x, low, high, color="C5", alpha=0.5, lw=0, label=f"{100 * level:g} % band of the mean"
     )
-    ax.plot(x, mean.predicted, color="C0", label="least-squares fit")
+    ax.plot(x, fit.force(x), color="C0", label="least-squares fit")
     ax.plot(data["delta_over_delta_max"], data["force"], "o", color="C1", mfc="none", label="data")
     ax.set(xlabel=r"$\delta/\delta_{\max}$", ylabel="force $F$ (N)")
     ax.legend()
@@ -36,7 +35,7 @@ def plot_fit(fit, data, level=0.95, ax=None):
 
 def plot_residuals(fit, data, axes):
     """Residuals against displacement, and their normal quantile plot; `axes` are two."""
-    residuals = np.asarray(fit.results.resid)
+    residuals = fit.residuals
     axes[0].axhline(0, color="0.5", lw=0.8)
     axes[0].vlines(data["delta_over_delta_max"], 0, residuals, color="C0", lw=1)
     axes[0].plot(data["delta_over_delta_max"], residuals, "o", color="C0")
@@ -55,7 +54,7 @@ def plot_confidence_region(fit, i=0, j=2, level=0.95, ax=None):
     estimated covariance; the p = 2 box is its bounding box.
     """
     ax = axes_or_new(ax)
-    V = np.asarray(fit.results.cov_params())[np.ix_([i, j], [i, j])]
+    V = fit.covariance[np.ix_([i, j], [i, j])]
     sizes, axes = np.linalg.eigh(V)
     width, height = 2 * fit.width(level, "scheffe", 2) * np.sqrt(sizes)
     angle = np.degrees(np.arctan2(axes[1, 0], axes[0, 0]))

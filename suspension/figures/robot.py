@@ -24,13 +24,17 @@ class RobotDrawing:
         Gives the distances L1 and L2 to the wheels.
     road : callable
         ``road(x) -> (H, dHdx)``.
+
+    Attributes
+    ----------
     body : float
-        How far above the unstretched springs' ends the body is drawn, m; the model needs no such
-        height.
+        How far above the unstretched springs' ends the body is drawn, m, in proportion to the
+        wheelbase; the model needs no such height.
     """
 
-    def __init__(self, ax, robot, road, body=0.06):
-        self.ax, self.robot, self.road, self.body = ax, robot, road, body
+    def __init__(self, ax, robot, road):
+        self.ax, self.robot, self.road = ax, robot, road
+        self.body = 0.28 * (robot.L1 + robot.L2)
         (self.line,) = ax.plot([], [], "-", color="0.2", lw=4, solid_capstyle="round")
         (self.centre,) = ax.plot([], [], "o", color="white", mec="0.2", ms=5, zorder=3)
         self.springs = [ax.plot([], [], "-", color=c, lw=1.2)[0] for c in COLOURS]
@@ -51,21 +55,21 @@ class RobotDrawing:
         self.centre.set_data([X], [w[0] + self.body])
         for i, (spring, wheel) in enumerate(zip(self.springs, self.wheels)):
             wheel.set_data([x[i]], [foot[i]])
-            spring.set_data(_zigzag(x[i], foot[i], top[i]))
+            spring.set_data(_zigzag(x[i], foot[i], top[i], 0.12 * self.body))
         return [self.line, self.centre, *self.springs, *self.wheels]
 
     def ground(self, left, right):
         """Draw the road from `left` to `right`, m, and fit the view to it in true proportions."""
         x = np.linspace(left, right, 501)
         H = profile(self.road, x)[0]
-        self.ax.fill_between(x, H, H.min() - 0.03, color="0.88", lw=0)
+        self.ax.fill_between(x, H, H.min() - self.body / 2, color="0.88", lw=0)
         self.ax.plot(x, H, color="0.45", lw=1)
-        self.ax.set(xlim=(left, right), ylim=(H.min() - 0.03, H.max() + 2.2 * self.body))
+        self.ax.set(xlim=(left, right), ylim=(H.min() - self.body / 2, H.max() + 2.2 * self.body))
         self.ax.set(aspect="equal", xlabel="x (m)", ylabel="y (m)")
         self.ax.grid(False)
 
 
-def _zigzag(x, bottom, top, coils=5, width=0.007):
+def _zigzag(x, bottom, top, width, coils=5):
     t = np.linspace(0, 1, 2 * coils + 3)
     side = np.zeros_like(t)
     side[2:-2] = width * np.where(np.arange(len(t) - 4) % 2, 1, -1)

@@ -1,7 +1,5 @@
 """Figures over speed: the margin, what it depends on, and how far springs and body move."""
 
-from itertools import pairwise
-
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.ticker import NullLocator
@@ -10,6 +8,9 @@ from suspension.figures.style import COLOURS, LINES, axes_or_new
 from suspension.forces import WHEEL
 
 __all__ = ["plot_margin", "plot_margin_map", "plot_sensitivities", "plot_travel", "speed_axis"]
+
+
+SHADE = "#fbe3d6"  # of speeds at which contact is lost
 
 
 def speed_axis(ax, v):
@@ -36,11 +37,11 @@ def _labels_apart(ax, speeds, labels, **style):
 def _hatch(ax, ranges, label):
     """Hatch ranges of speed over the whole height."""
     style = {"facecolor": "none", "edgecolor": "0.7", "hatch": "//", "lw": 0, "zorder": 0.5}
-    for i, (left, right) in enumerate(ranges):
-        ax.axvspan(left, right, label=label if i == 0 else None, **style)
+    for i, found in enumerate(ranges):
+        ax.axvspan(found.low, found.high, label=label if i == 0 else None, **style)
 
 
-def plot_margin(v, N, critical, asked=(), beyond=(), ax=None):
+def plot_margin(v, N, regimes, asked=(), beyond=(), ax=None):
     """Least force of each wheel against speed, with the speeds at which contact is lost shaded.
 
     Parameters
@@ -49,30 +50,31 @@ def plot_margin(v, N, critical, asked=(), beyond=(), ax=None):
         Speeds, m/s, in order.
     N : array_like, shape (2, n)
         Least normal force of the rear and the front wheel, N.
-    critical : array_like
-        Critical speeds, m/s.
+    regimes : suspension.contact.Regimes
+        Where contact is kept and lost, what is shaded.
     asked : sequence of float
         Speeds to mark on the curve of the margin.
-    beyond : array_like, shape (m, 2)
+    beyond : sequence of suspension.travel.Overtravel
         Ranges of speed to hatch: a spring is compressed further than it was measured.
     """
     ax = axes_or_new(ax)
     margin = np.min(N, axis=0)
     speed_axis(ax, v)
-    edges = [v[0], *critical, v[-1]]
+    critical = regimes.critical
+    for left, right in regimes.spans(lost=True):
+        ax.axvspan(left, right, color=SHADE, lw=0, zorder=0)
     above = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
-    for left, right in pairwise(edges):
-        lost = np.interp(np.sqrt(left * right), v, margin) < 0
-        if lost:
-            ax.axvspan(left, right, color="#fbe3d6", lw=0, zorder=0)
-        if right > left * (v[-1] / v[0]) ** 0.06:  # else there is no room for a word
-            ax.text(np.sqrt(left * right), 1.01, "lost" if lost else "kept", **above)
+    for lost, word in ((False, "kept"), (True, "lost")):
+        for left, right in regimes.spans(lost):
+            if right > left * (v[-1] / v[0]) ** 0.06:  # else there is no room for a word
+                ax.text(np.sqrt(left * right), 1.01, word, **above)
     _hatch(ax, beyond, r"spring beyond $\delta_{\max}$")
     ax.axhline(0, color="0.2", lw=0.9)
     ax.plot(v, N[0], color=COLOURS[0], ls=LINES[0], label=f"{WHEEL[1]} wheel")
     ax.plot(v, N[1], color=COLOURS[1], ls=LINES[1], label=f"{WHEEL[2]} wheel")
     if len(critical):
-        ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label="critical speeds", zorder=4)
+        label = "critical speed" if len(critical) == 1 else "critical speeds"
+        ax.plot(critical, np.zeros(len(critical)), "kD", ms=5, label=label, zorder=4)
     if len(asked):
         at = np.interp(asked, v, margin)
         marks = {"color": "k", "mfc": "white", "ms": 6, "zorder": 4}

@@ -44,7 +44,7 @@ def plot_near_zero(scheme, eigenvalues, dts, ax):
     """
     smallest = int(np.argmin(dts))
     z = np.asarray(eigenvalues) * dts[smallest]
-    height = 1.4 * np.abs(z.imag).max()
+    height = 1.4 * max(np.abs(z.imag).max(), 0.1 * np.abs(z.real).max())  # all may be real
     width = 3 * max(np.abs(z.real).max(), 0.01 * height)  # wider, to tell points from the axis
     right, bottom, top = ax.get_xlim()[1], *ax.get_ylim()
     place = [right + 5, bottom, 0.55 * (top - bottom), 0.6 * (top - bottom)]

@@ -1,9 +1,9 @@
-"""Sentences, tables and captions of Part VI: flights, in two models of the free wheel."""
+"""Sentences, tables and captions of Part VII: flights, in two models of the free wheel."""
 
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.least_force import COURSE
+from suspension.problem import DISTANCE
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -12,8 +12,8 @@ from suspension.report.words import (
     fixed,
     join,
     number,
-    percent,
     quantity,
+    small_angle,
     speed_list,
 )
 
@@ -65,8 +65,8 @@ def flight_table(flights, robot):
     ways = join(f"{flight.v * duration:.3g}" for flight in flights)
     note = (
         f"Counted over {quantity(duration, 's')}, a way of {ways}{SPACE}m; the asked runs end at "
-        f"{COURSE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those at "
-        "rest."
+        f"{DISTANCE:g}{SPACE}m. A run has settled when both forces stay within 5{SPACE}% of those "
+        "at rest."
     )
     return "\n\n".join([table([_row(flight, robot) for flight in flights]), note])
 
@@ -160,23 +160,20 @@ def tilt(flights, pressing):
     """
     angles = {v: np.abs(flight.W[2]).max() for v, flight in flights.items()}
     v = max(angles, key=angles.get)
-    differ = percent(angles[v] ** 2 / 6, 2)
+    differ = small_angle(angles[v])
     degrees = f"{fixed(np.degrees(angles[v]), 1)} degrees at {speed_list([v])}"
     if not flights[v].events:
         return (
             f"The largest pitch of these runs is {degrees}, with both wheels on the ground; "
-            rf"$\sin\theta$ and $\theta$ differ by {differ} there."
+            f"{differ} there."
         )
     if angles[v] < 1.05 * pressing[v]:
-        return (
-            f"The pitch reaches {degrees}, no more than while both wheels press; "
-            rf"$\sin\theta$ and $\theta$ differ by {differ} there."
-        )
+        return f"The pitch reaches {degrees}, no more than while both wheels press; {differ} there."
     return (
         f"In the air the body tilts further than before: the pitch reaches {degrees}, where it had "
         f"been {fixed(np.degrees(pressing[v]), 1)} degrees at most until the first lift-off. "
-        rf"There $\sin\theta$ and $\theta$ differ by {differ}, and the small-angle equations begin "
-        "to be an approximation that one can see."
+        f"There {differ}, and the small-angle equations begin to be an approximation that one can "
+        "see."
     )
 
 
@@ -335,12 +332,26 @@ def _story(flight):
 
 def film_caption(v, told):
     """Caption of the film at `v` in m/s; `told` as `suspension.travel.moments` returns it."""
-    words = join(f"{what} ({fixed(t, 3)}{SPACE}s)" for t, what in told.items())
-    flies = any("lifts off" in what for what in told.values())
+    words = join(f"{_what(moment)} ({fixed(moment.t, 3)}{SPACE}s)" for moment in told)
+    flies = any(moment.kind == "lift-off" for moment in told)
     hangs = " A wheel in the air hangs from its extended spring." if flies else ""
     text = f"The robot at {v:g}{SPACE}m/s in true proportions: {words}.{hangs}"
     alt = f"{count(len(told), 'frame').capitalize()} of the robot at {v:g}{SPACE}m/s: {words}."
     return Caption(text, alt)
+
+
+def _what(moment):
+    """What happens at a moment of a drive, in words."""
+    if moment.wheel is None:
+        return {"top": "the body is over it", "past": "both have passed"}[moment.kind]
+    return {
+        "foot": "the {} wheel reaches the bump",
+        "top": "the {} wheel is on its top",
+        "lift-off": "the {} wheel lifts off",
+        "apex": "it is at the top of this flight",
+        "landing": "it lands",
+        "highest": "the {} wheel is at its highest",
+    }[moment.kind].format(WHEEL[moment.wheel])
 
 
 def order_caption(v, end, orders):
@@ -371,7 +382,7 @@ def order_sentence(v, orders):
     if v is None:
         return (
             "With this spring no wheel lands at the asked speeds, so there is no switch to study "
-            "there. [Part V](../notebooks/05-critical-speeds.ipynb) says at which speeds one would."
+            "there. [Part VI](../notebooks/06-critical-speeds.ipynb) says where one does."
         )
     blind, located = orders
     words = (

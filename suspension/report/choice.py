@@ -1,6 +1,9 @@
-"""Sentences, tables and captions of Part VIII: the robot as a filter, a choice of suspension.
+"""Sentences, tables and captions of Part IX: the robot as a filter, a choice of suspension.
 
-A suspension is a robot, of which stiffness and damping, alike on both axles, are told.
+A suspension is a robot, of which stiffness and damping, alike on both axles, are told. `candidates`
+holds a `suspension.choice.Candidate` for each by name, the present one first; `maps` is a
+`suspension.choice.Demands`, `rides` a list of `Ride` and `findings` the `Findings` from there.
+After a loss of contact no margin is told.
 """
 
 import numpy as np
@@ -34,6 +37,7 @@ __all__ = [
     "gains_caption",
     "margins_caption",
     "needed",
+    "rest_note",
     "ripples_caption",
     "rms_caption",
     "robust_table",
@@ -41,6 +45,7 @@ __all__ = [
     "rough_caption",
     "rough_table",
     "rough_words",
+    "short_waves",
 ]
 
 ALMOST = 0.2  # of a logarithm: a fifth more or less
@@ -90,7 +95,7 @@ def gains_caption(speeds, base):
 def ripples_caption(v):
     """Caption of the margin above the swings left behind, over speeds `v`, m/s."""
     return Caption(
-        "Above: the margin of Part V. Below: the swings that the bump leaves behind in heave and "
+        "Above: the margin of Part VI. Below: the swings that the bump leaves behind in heave and "
         "pitch, from its spectrum (lines), from the closed form (symbols), and without the comb "
         "(dotted).",
         f"Two panels over speed from {number(v[0])} to {number(v[-1])}{SPACE}m/s. Above the "
@@ -99,69 +104,80 @@ def ripples_caption(v):
     )
 
 
-def cost(cases, steps, error):
+def cost(cases, error):
     """What the maps took; `error` is how far their margins are from exact ones at most, N."""
     return (
-        f"The maps are {cases} runs of {steps} steps each, all in one loop. Their margins are "
-        f"sampled; on every fifth suspension each way they are off the exact ones by at most "
-        f"{number(error, 2)}{SPACE}N."
+        f"The maps are {cases} runs on a ground that only pushes, all in one loop. On every fifth "
+        "suspension each way the verdicts are those of the exact margins, which they miss by at "
+        f"most {quantity(error, 'N', 2)}."
     )
 
 
 def best_table(maps, k, c, limit):
-    """The best suspension of a map in each criterion, and what it is in the two others.
+    """The best suspension of a map in each criterion, and what it is in the others.
 
     Parameters
     ----------
-    maps : suspension.choice.Demands
+    maps : Demands
     k, c : array_like, shapes (n,) and (m,)
         N/m, N s/m.
     limit : float
         Largest displacement at which the spring was measured, m.
     """
-    best = {
-        "the most contact": maps.margin.argmax(),
-        "the least acceleration": maps.acceleration.argmin(),
-        "the least travel": maps.compression.argmin(),
-    }
     rows = []
-    for name, place in best.items():
-        i, j = np.unravel_index(place, maps.margin.shape)
+    names = ("the most contact", "the least acceleration", "the least travel")
+    for name, costs in zip(names, maps.costs):
+        i, j = np.unravel_index(costs.argmin(), costs.shape)
         rows.append(
             {
                 "best in": name,
                 "k (N/m)": number(k[j]),
                 "c (N s/m)": number(c[i], 2),
-                "margin (N)": fixed(maps.margin[i, j], 1),
+                "contact": _contact(maps.margin[i, j], maps.air[i, j]),
                 "acceleration (m/s²)": fixed(maps.acceleration[i, j], 1),
                 "compression (mm)": fixed(1000 * maps.compression[i, j], 1),
-                r"of $\delta_{\max}$": fixed(maps.compression[i, j] / limit, 1),
+                r"of $\delta_{\max{}}$": fixed(maps.compression[i, j] / limit, 1),
             }
         )
     return table(rows)
 
 
-def demands_caption(names):
-    """Caption of the three maps; `names` are those of the marked suspensions."""
+def _contact(margin, air):
+    """The margin, or, where contact is lost, how much of the way a wheel is in the air."""
+    if margin > 0:
+        return f"kept, {fixed(margin, 1)}{SPACE}N"
+    return f"lost, {_part(air)} in the air"
+
+
+def demands_caption(names, maps, k, c):
+    """Caption of the maps; `names` are those of the marked suspensions."""
+    kept = maps.margin > 0
+    where = "Contact is kept nowhere."
+    if kept.any():
+        row, column = np.nonzero(kept)
+        up_to = _named(k[column.max()], c[row.max()])
+        where = f"Contact is kept on {percent(kept.mean())} of the map, up to {up_to}."
     return Caption(
-        "The worst over the four asked speeds, for every stiffness and damping: least margin, "
-        "largest acceleration of the body, largest compression of a spring. White line: margin "
-        f"zero. Marks: {join(names)}.",
-        "Three maps over stiffness and damping on logarithmic axes. The margin is positive only "
-        "for soft springs with weak dampers; acceleration is small there and grows towards stiff "
-        "springs and strong dampers; compression is largest for the softest springs and smallest "
-        f"for strong dampers. Marked: {join(names)}.",
+        "The worst over the asked speeds, for every stiffness and damping: least margin, the part "
+        "of the way that a wheel spends in the air, largest acceleration of the body, largest "
+        f"compression of a spring. White line: beyond it contact is lost. Marks: {join(names)}.",
+        f"Four maps over stiffness and damping on logarithmic axes. {where} Acceleration goes from "
+        f"{number(maps.acceleration.min(), 2)} to {number(maps.acceleration.max(), 2)}{SPACE}m/s², "
+        f"compression from {number(1000 * maps.compression.min(), 2)} to "
+        f"{number(1000 * maps.compression.max(), 2)}{SPACE}mm. Marked: {join(names)}.",
     )
 
 
 def front_caption(kept, total):
     """Caption of the front; `kept` of `total` best compromises keep contact."""
+    many = f"{kept} of these {total}" if kept else "None of them"
+    keep = "keeps" if kept == 1 else "keep"
     return Caption(
-        f"The best compromises: no other suspension of the map is better in one criterion and as "
-        f"good in the others. {count(kept, 'of them keeps', 'of them keep').capitalize()} contact "
-        f"at all four speeds. Where contact is lost, the numbers are those of a ground that pulls.",
-        f"Scatter of {total} suspensions, margin against compression, coloured by acceleration. "
-        "The margin is positive only at the largest compressions, where acceleration is smallest.",
+        "The best compromises: no other suspension of the map is better in one criterion and as "
+        f"good in the others. {many} {keep} contact at all asked speeds (filled); rings: contact "
+        "is lost.",
+        f"Scatter of {total} suspensions, acceleration against compression. {many} {keep} contact "
+        "and are coloured by their margin.",
     )
 
 
@@ -171,63 +187,72 @@ def beaten(robot, better):
     Parameters
     ----------
     robot : Robot
-    better : (float, float) or None
-        A suspension that is better in all three criteria, k and c, N/m and N s/m.
+    better : sequence of (float, float)
+        Suspensions that are better in all three criteria, k and c, N/m and N s/m, best first.
     """
-    if better is None:
-        return (
-            f"The present suspension, {quantity(robot.k1, 'N/m')} and "
-            f"{quantity(robot.c1, 'N s/m')}, is a best compromise itself: none of the map is "
-            "better in all three."
-        )
-    k, c = better
-    present = f"{quantity(robot.k1, 'N/m')} and {quantity(robot.c1, 'N s/m')}"
-    other = f"{quantity(k, 'N/m')} and {quantity(c, 'N s/m')}"
+    present = f"The present suspension, {_named(robot.k1, robot.c1)},"
+    if not len(better):
+        return f"{present} is not beaten: none of the map is better in all three."
     return (
-        f"The present suspension, {present}, is none of them: with {other}, for example, *all* "
-        "three would be better."
+        f"{present} is beaten by {count(len(better), 'suspension')} of the map in *all* three, "
+        f"for example by {_named(*better[0])}."
     )
 
 
-def choice_table(choices, margins, peaks, limit):
+def _named(k, c):
+    return f"{quantity(k, 'N/m')} and {quantity(c, 'N s/m')}"
+
+
+def choice_table(candidates, limit):
     """The suspensions beside each other: their margins, then what they ask for.
 
-    Parameters
-    ----------
-    choices : dict of str to Robot
-    margins : dict of str to dict of float to float
-        For each the margins at the asked speeds, N.
-    peaks : dict of str to tuple
-        For each the largest acceleration, m/s^2, and compression, m, over the asked speeds.
-    limit : float
-        Largest displacement at which the spring was measured, m.
+    `limit` is the largest displacement at which the spring was measured, m.
     """
     first, second = [], []
-    for name, other in choices.items():
-        acceleration, compression = peaks[name]
+    for name, one in candidates.items():
         first.append(
             {
                 "suspension": name,
-                "k (N/m)": number(other.k1),
-                "c (N s/m)": number(other.c1),
-                **{f"{v:g}{SPACE}m/s": fixed(m, 2) for v, m in margins[name].items()},
+                "k (N/m)": number(one.robot.k1),
+                "c (N s/m)": number(one.robot.c1),
+                **{f"{v:g}{SPACE}m/s": _margin(m) for v, m in one.margins.items()},
             }
         )
         second.append(
             {
                 "suspension": name,
-                "largest acceleration (m/s²)": fixed(acceleration, 1),
-                r"at rest, of $\delta_{\max}$": fixed(-other.equilibrium[0] / limit, 2),
-                r"at most, of $\delta_{\max}$": fixed(compression / limit, 2),
+                "largest acceleration (m/s²)": fixed(one.worst.acceleration[0, 0], 1),
+                r"at rest, of $\delta_{\max{}}$": fixed(-one.robot.equilibrium[0] / limit, 2),
+                r"at most, of $\delta_{\max{}}$": fixed(one.worst.compression[0, 0] / limit, 2),
+                "in the air": _part(one.worst.air[0, 0]),
             }
         )
     return "\n\n".join(
         [
             "Margins in N at the asked speeds:",
             table(first),
-            "and what the suspensions ask for, acceleration and compression of the springs:",
+            "and what the suspensions ask for, on a ground that only pushes:",
             table(second),
         ]
+    )
+
+
+def _margin(margin):
+    """A margin in N; after a loss it is none."""
+    return "lost" if margin < -SHOWN else fixed(margin, 2)
+
+
+def rest_note(fit, robot):
+    """What the linear spring of this part leaves out, if the readings contradict it."""
+    if fit.linearity().linear:
+        return ""
+    load = robot.m * robot.g / 2
+    line, parabola = load / fit.stiffness, fit.displacement(load) * fit.delta_max
+    return (
+        "The readings contradict a spring without preload and curvature. All of this part is "
+        f"reckoned with the line, on which the robot rests at {fixed(1000 * line, 1)}{SPACE}mm; on "
+        f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VIII]"
+        "(08-measured-spring.ipynb) says what else that changes."
     )
 
 
@@ -277,63 +302,43 @@ def exclusion_words(found, low, high, asked, own):
     own : float
         Stiffness of the robot as it is, N/m.
     """
-    what = (
-        f"a spring on which the robot rests within the measured displacements (k from "
-        f"{number(low)} to {number(high)}{SPACE}N/m)"
-    )
-    best = f"{quantity(found.k, 'N/m')} and {quantity(found.c, 'N s/m')}"
     words = (
-        f"Is there {what} that keeps contact at {speed_list(asked)}? Of {found.points} suspensions "
-        f"the best, at {best}, has a worst margin of {quantity(found.best, 'N')}. "
+        "Is there a spring on which the robot rests within the measured displacements (k from "
+        f"{number(low)} to {number(high)}{SPACE}N/m) that keeps contact at {speed_list(asked)}? "
     )
     if found.best >= 0:
-        return words + "**Yes.**"
+        return (
+            f"{words}**Yes,** with {_named(found.k, found.c)} and a margin of "
+            f"{quantity(found.best, 'N')}, for example."
+        )
+    words += f"Of {found.points} suspensions none does. "
     if found.steepness > SURE:
         words += (
             "**No:** to reach zero between the points the margin would have to be "
             f"{fixed(found.steepness, 1)} times as steep, at least, as it is anywhere beside them."
         )
     else:
-        words += "None of them does; the grid is too coarse to say more."
+        words += "The grid is too coarse to say more."
     if own < low:
         words += " The robot's own spring is not one of these: it rests beyond them."
     return words
 
 
-def margins_caption(critical, low, high):
-    """Caption of the margins of several suspensions against speed.
-
-    Parameters
-    ----------
-    critical : dict of str to array_like
-        For each the critical speeds from `low` to `high`, m/s.
-    """
-    each = [
-        f"{name}: zero at {speed_list(speeds)}" if len(speeds) else f"{name}: never zero"
-        for name, speeds in critical.items()
-    ]
+def margins_caption(candidates):
+    """Caption of the margins of several suspensions against speed."""
+    low, high = next(iter(candidates.values())).regimes.edges[[0, -1]]
+    each = "; ".join(f"{name}: {ranges(one.regimes)}" for name, one in candidates.items())
     return Caption(
-        f"The margin at every speed from {number(low)} to {number(high)}{SPACE}m/s, for each "
-        "suspension; symbols: the asked speeds. What is right at four speeds need not be right "
-        "between them.",
-        f"Margin against speed. {'; '.join(each)}.",
+        f"The margin at every speed from {low:g} to {high:g}{SPACE}m/s, for each suspension; "
+        "symbols: the asked speeds. Below zero (shaded) contact is lost. What is right at the "
+        "asked speeds need not be right between them.",
+        f"Margin against speed. {each}.",
     )
 
 
-def between(critical, kept, low, high):
-    """Where each suspension keeps contact from `low` to `high`, m/s.
-
-    Parameters
-    ----------
-    critical : dict of str to array_like
-        For each the critical speeds there, m/s.
-    kept : dict of str to sequence of bool
-        For each whether contact is kept in each of the ranges between them.
-    """
-    lines = []
-    for name, speeds in critical.items():
-        where = ranges([low, *speeds, high], [not keeps for keeps in kept[name]])
-        lines.append(f"- **{name}**: contact is {where}.")
+def between(candidates):
+    """Where each suspension keeps contact in the range of the asked speeds."""
+    lines = [f"- **{name}**: contact is {ranges(one.regimes)}." for name, one in candidates.items()]
     return "\n".join(lines)
 
 
@@ -347,7 +352,7 @@ def robust_table(least):
     """
     return table(
         [
-            {"if": case, **{name: fixed(m, 2) for name, m in margins.items()}}
+            {"if": case, **{name: _margin(m) for name, m in margins.items()}}
             for case, margins in least.items()
         ]
     )
@@ -356,37 +361,30 @@ def robust_table(least):
 def robust_words(least, name):
     """Which cases one suspension does not survive."""
     fails = [case for case, margins in least.items() if margins[name] < -SHOWN]
-    each = "in every case of the table"
     if not fails:
-        return f"The suspension “{name}” keeps contact at the four speeds {each}."
+        return f"“{name}” keeps contact at the asked speeds in every case of the table."
     if len(fails) == len(least):
-        return f"The suspension “{name}” loses contact at one of the four speeds {each}."
+        return f"“{name}” loses contact at an asked speed in every case of the table."
+    all_of_them = count(len(least), "case")
     return (
-        f"The suspension “{name}” loses contact at one of the four speeds in "
-        f"{count(len(fails), 'case')} of {len(least)}: {join(fails)}."
+        f"“{name}” loses contact at an asked speed in {count(len(fails), 'of').split()[0]} of the "
+        f"{all_of_them}: {join(fails)}."
     )
 
 
-def drive_links(choices, reach, v):
-    """Phrases that open the explorer with each suspension at `v` m/s.
-
-    Parameters
-    ----------
-    choices : dict of str to Robot
-    reach : dict of str to Range
-        The explorer's sliders.
-    """
+def drive_links(candidates, reach, v):
+    """Phrases that open the explorer with each suspension at `v` m/s; `reach`: its sliders."""
     phrases, outside = [], []
-    for name, robot in choices.items():
+    for name, (robot, *_) in candidates.items():
         if robot.k1 in reach["k"] and robot.c1 in reach["c"]:
             settings = f"v={v:g}&k={robot.k1:.6g}&c={robot.c1:.6g}&motion=flying"
-            phrases.append(f"[{name}](../notebooks/09-drive.ipynb#explore:{settings})")
+            phrases.append(f"[{name}](../notebooks/10-drive.ipynb#explore:{settings})")
         else:
             outside.append(name)
-    words = f"Drive them over the bump at {v:g}{SPACE}m/s: {join(phrases)}." if phrases else ""
+    words = [f"Drive them over the bump at {v:g}{SPACE}m/s: {join(phrases)}."] if phrases else []
     if outside:
-        words += f" {join(outside).capitalize()}: beyond the end of the explorer's sliders."
-    return words.strip()
+        words.append(f"{join(outside).capitalize()}: beyond the end of the explorer's sliders.")
+    return " ".join(words)
 
 
 def rough_caption(name, v, airtime):
@@ -403,31 +401,22 @@ def rough_caption(name, v, airtime):
     return Caption(text, alt)
 
 
-def rough_table(rows):
-    """Rides on a rough road.
-
-    Parameters
-    ----------
-    rows : list of dict
-        With the keys `name`, `v` (m/s), `force` (N), `acceleration` (m/s^2) and `pitch` (rad),
-        root mean squares of the linear motion, `expected` and `counted`, the part of the time in
-        which a rear wheel would have to be pulled, and `flights` and `air`, their number and the
-        part of the time in which it is in the air.
-    """
+def rough_table(rides):
+    """Rides on a rough road."""
     return table(
         [
             {
-                "suspension": row["name"],
-                "v (m/s)": f"{row['v']:g}",
-                "force (N)": fixed(row["force"], 2),
-                "acceleration (m/s²)": fixed(row["acceleration"], 2),
-                "pitch (degrees)": fixed(np.degrees(row["pitch"]), 2),
-                "pulled: expected": _part(row["expected"]),
-                "counted": _part(row["counted"]),
-                "flights": str(row["flights"]),
-                "in the air": _part(row["air"]),
+                "suspension": ride.name,
+                "v (m/s)": f"{ride.v:g}",
+                "force (N)": fixed(ride.force, 2),
+                "acceleration (m/s²)": fixed(ride.acceleration, 2),
+                "pitch (degrees)": fixed(np.degrees(ride.pitch), 2),
+                "pulled: expected": _part(ride.expected),
+                "counted": _part(ride.counted),
+                "flights": str(ride.flights),
+                "in the air": _part(ride.air),
             }
-            for row in rows
+            for ride in rides
         ]
     )
 
@@ -439,17 +428,38 @@ def _part(fraction):
     return f"<{SPACE}0.01{SPACE}%" if fraction < 1e-4 else percent(fraction, 2)
 
 
-def rough_words(rows, name, distance):
+def rough_words(rides, name, distance):
     """What the rough road says about each suspension."""
     words = []
-    for each in dict.fromkeys(row["name"] for row in rows):
-        flying = [row["v"] for row in rows if row["name"] == each and row["flights"]]
-        many = sum(row["flights"] for row in rows if row["name"] == each)
-        if flying:
-            words.append(f"“{each}” flies at {speed_list(flying)}, {count(many, 'time')} in all")
-        else:
-            words.append(f"“{each}” never flies")
-    return f"On {distance:g}{SPACE}m of a road of class {name}, {join(words)}."
+    for each, flights in _flights(rides).items():
+        where = [ride.v for ride in rides if ride.name == each and ride.flights]
+        many = f", {count(flights, 'time')} in all" if len(where) > 1 else ""
+        flies = f"flies at {speed_list(where)}{many}" if where else "never flies"
+        words.append(f"“{each}” {flies}")
+    return f"On {distance:g}{SPACE}m of a road of class {name}: {'; '.join(words)}."
+
+
+def _flights(rides):
+    """How often each suspension flies in all its rides, by name."""
+    names = dict.fromkeys(ride.name for ride in rides)
+    return {name: sum(ride.flights for ride in rides if ride.name == name) for name in names}
+
+
+def short_waves(parts, shortest):
+    """How much of the force comes from waves shorter than the classes were made for.
+
+    Parameters
+    ----------
+    parts : dict of float to float
+        For each speed, m/s, their part of the mean square.
+    shortest : float
+        The shortest wave of the classes, m.
+    """
+    each = join(f"{percent(part, 3)} at {v:g}{SPACE}m/s" for v, part in parts.items())
+    return (
+        f"The classes are meant for waves down to {fixed(shortest, 2)}{SPACE}m. Shorter ones only "
+        f"continue their law, and of the mean square of the rear wheel's force they are {each}."
+    )
 
 
 def rms_caption(names, classes):
@@ -463,88 +473,84 @@ def rms_caption(names, classes):
     )
 
 
-def conclusions(robot, least, reserved, excluded, wide, holds, rows, reserve, asked):
-    """What an engineer should take away: five sentences.
+def conclusions(findings):
+    """What an engineer should take away: five sentences."""
+    sentences = [f(findings) for f in (_springs, _longer, _reserve, _range, _rough)]
+    return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
 
-    Parameters
-    ----------
-    robot : Robot
-    least, reserved, wide : suspension.choice.Choice or None
-        The cheapest for contact at the asked speeds, with a reserve, and in their whole range.
-    excluded : suspension.choice.Exclusion
-        Of the springs on which the robot rests within the measured displacements.
-    holds : bool
-        Whether `wide` keeps contact at every speed of the range, not only at those it was made for.
-    rows : list of dict
-        As in `rough_table`.
-    reserve : float
-        N.
-    asked : sequence of float
-        Speeds, m/s.
-    """
-    low, high = min(asked), max(asked)
+
+def _present(findings):
+    """The suspension as it is."""
+    return next(iter(findings.candidates.values()))
+
+
+def _springs(findings):
+    least, robot = findings.least, _present(findings).robot
+    asked = speed_list(_present(findings).margins)
     if least is None:
-        first = "No suspension of those tried keeps contact at the four speeds."
-    elif least.distance == 0:
-        first = (
-            "As it is the robot keeps contact at the four speeds: for these its suspension may "
-            "stay."
-        )
-    else:
-        springs = f"springs of {quantity(least.robot.k1, 'N/m')}"
-        times = _times(least.robot.k1 / robot.k1)
-        dampers = f"dampers of {quantity(least.robot.c1, 'N s/m')}"
-        if abs(np.log(least.robot.c1 / robot.c1)) < ALMOST:
-            dampers = f"almost the same dampers, {quantity(least.robot.c1, 'N s/m')}"
-        first = f"For contact at the four speeds take {springs}, {times}, and {dampers}."
-    if excluded.best < 0:
-        second = (
-            "A spring that does it must be longer than the measured one: those on which the robot "
-            "rests within the measured displacements all lose contact, by "
-            f"{quantity(-excluded.best, 'N', 2)} and more."
-        )
-    else:
-        second = "A spring on which the robot rests within the measured displacements can do it."
+        return f"No suspension of those tried keeps contact at {asked}."
+    if least.distance == 0:
+        return f"As it is the robot keeps contact at {asked}: for these its suspension may stay."
+    dampers = f"dampers of {quantity(least.robot.c1, 'N s/m')}"
+    if abs(np.log(least.robot.c1 / robot.c1)) < ALMOST:
+        dampers = f"almost the same dampers, {quantity(least.robot.c1, 'N s/m')}"
+    return (
+        f"For contact at {asked} take springs of {quantity(least.robot.k1, 'N/m')}, "
+        f"{_times(least.robot.k1 / robot.k1)}, and {dampers}."
+    )
+
+
+def _longer(findings):
+    if findings.excluded.best >= 0:
+        return "A spring on which the robot rests within the measured displacements can do it."
+    sure = "all lose contact" if findings.excluded.steepness > SURE else "lose it, as far as tried"
+    return (
+        "A spring that does it must be longer than the measured one: those on which the robot "
+        f"rests within the measured displacements {sure}."
+    )
+
+
+def _reserve(findings):
+    reserved, robot = findings.reserved, _present(findings).robot
     if reserved is None:
-        third = "A reserve is not to be had in the range that was tried."
-    elif reserved.distance == 0:
-        third = (
+        return "A reserve is not to be had in the range that was tried."
+    if reserved.distance == 0:
+        return (
             f"The robot's margin, {quantity(reserved.margin, 'N')}, is a reserve against a bump "
             "that is higher than thought."
         )
-    else:
-        part = reserve / (robot.m * robot.g / 2)
-        third = (
-            f"Do not stop where the margin is zero: {quantity(reserved.robot.k1, 'N/m')} buys a "
-            f"reserve of {percent(part)} of the load at rest, hence a bump that may be "
-            f"{percent(part / (1 - part))} higher."
-        )
+    part = findings.reserve / (robot.m * robot.g / 2)
+    return (
+        f"Do not stop where the margin is zero: {quantity(reserved.robot.k1, 'N/m')} buys a "
+        f"reserve of {percent(part)} of the load at rest, hence a bump that may be "
+        f"{percent(part / (1 - part))} higher."
+    )
+
+
+def _range(findings):
+    low, high = _present(findings).regimes.edges[[0, -1]]
+    where = f"from {low:g} to {high:g}{SPACE}m/s"
+    few = count(len(_present(findings).margins), "").split()[0]
+    ask = f"Ask for a range of speeds, not for {few}"
+    wide = findings.wide
     if wide is None:
-        fourth = (
-            f"Ask for a range of speeds, not for four; from {low:g} to {high:g}{SPACE}m/s no "
-            "suspension of those tried keeps contact with that reserve."
-        )
-    else:
-        fourth = (
-            f"Ask for a range of speeds, not for four: from {low:g} to {high:g}{SPACE}m/s it takes "
-            f"{quantity(wide.robot.k1, 'N/m')}"
-        )
-        fourth += (
-            "." if holds else ", and even that loses contact between the speeds it is made for."
-        )
-    names = list(dict.fromkeys(row["name"] for row in rows))
-    flights = {name: sum(row["flights"] for row in rows if row["name"] == name) for name in names}
-    most, fewest = max(names, key=flights.get), min(names, key=flights.get)
+        return f"{ask}; {where} no suspension of those tried keeps contact with that reserve."
+    held = next(one for one in findings.candidates.values() if one.robot == wide.robot)
+    lost = held.regimes.lost.any()
+    but = ", and even that loses contact between the speeds it is made for" if lost else ""
+    return f"{ask}: {where} it takes {quantity(wide.robot.k1, 'N/m')}{but}."
+
+
+def _rough(findings):
+    flights = _flights(findings.rides)
+    most, fewest = max(flights, key=flights.get), min(flights, key=flights.get)
     if flights[most] == flights[fewest]:
-        fifth = "On the rough road a softer spring makes no difference in the number of flights."
-    else:
-        seldom = count(flights[fewest], "time") if flights[fewest] else "never"
-        fifth = (
-            f"On the rough road “{most}” flies {count(flights[most], 'time')} and “{fewest}” "
-            f"{seldom}: what is chosen for one bump is felt there too."
-        )
-    sentences = [first, second, third, fourth, fifth]
-    return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
+        return "On the rough road the choice makes no difference in the number of flights."
+    seldom = count(flights[fewest], "time") if flights[fewest] else "never"
+    return (
+        f"On the rough road “{most}” flies {count(flights[most], 'time')} and “{fewest}” {seldom}: "
+        "what is chosen for one bump is felt there too."
+    )
 
 
 def _times(ratio):

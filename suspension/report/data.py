@@ -15,12 +15,16 @@ from suspension.report.words import (
 from suspension.springs import TRUE_STIFFNESS, is_synthetic
 
 __all__ = [
+    "bump_rows",
+    "caution",
     "consequence_rows",
     "data_rows",
     "existence",
     "hindsight",
     "made_sentence",
+    "question_rows",
     "read_sentence",
+    "robot_rows",
     "slope_sentence",
     "source_sentence",
     "speed_digits",
@@ -28,6 +32,20 @@ __all__ = [
     "stiffness_sentence",
     "synthetic_note",
 ]
+
+BETRAYED = "../notebooks/01-regression.ipynb#what-would-betray-a-wrong-model"
+SYMBOLS = {
+    "g": ("$g$", "m/s²", "gravity"),
+    "m": ("$m$", "kg", "mass of the half-robot"),
+    "Izz": ("$I_{zz}$", "kg m²", "its moment of inertia about the centre of mass"),
+    "L1": ("$L_1$", "m", "centre of mass to rear wheel"),
+    "L2": ("$L_2$", "m", "centre of mass to front wheel"),
+    "c1": ("$c_1$", "N s/m", "rear pair of dampers"),
+    "c2": ("$c_2$", "N s/m", "front pair of dampers"),
+    "height": ("$h_0$", "m", "height of the bump"),
+    "sigma": (r"$\sigma$", "m", "its width"),
+    "centre": ("$x_0$", "m", "place of its top"),
+}
 
 
 # --- what was read ----------------------------------------------------------------------------
@@ -83,6 +101,58 @@ def _decimals(values):
         if np.allclose(values, np.round(values, decimals), rtol=0, atol=1e-9):
             return decimals
     return 4
+
+
+# --- what this copy of the book is about ------------------------------------------------------
+
+
+def robot_rows(table_1, fit):
+    """Table 1 with the stiffness that was put into it.
+
+    Parameters
+    ----------
+    table_1 : dict of str to float
+        SI units.
+    fit : SpringFit
+    """
+    stiffness = {
+        "symbol": "$k_1 = k_2$",
+        "value": quantity(fit.stiffness, "N/m", 4),
+        "meaning": "a pair of springs, from Question 1",
+    }
+    return [*_facts(table_1), stiffness]
+
+
+def bump_rows(bump):
+    """What the bump is made of."""
+    return _facts({name: getattr(bump, name) for name in ("height", "sigma", "centre")})
+
+
+def _facts(values):
+    return [
+        {
+            "symbol": SYMBOLS[name][0],
+            "value": f"{value:g}{SPACE}{SYMBOLS[name][1]}".replace("-", "−"),
+            "meaning": SYMBOLS[name][2],
+        }
+        for name, value in values.items()
+    ]
+
+
+def question_rows(speeds, steps, halved_steps, duration, distance):
+    """The numbers of the questions: speeds in m/s, steps and duration in s, distance in m."""
+    return [
+        _question("speeds over the bump", speeds, "m/s", "2, 3, 6 and 10"),
+        _question("steps that may be unstable", steps, "s", "4, 7 and 9"),
+        _question("steps that are compared", halved_steps, "s", "5 and 6"),
+        _question("length of a free motion", [duration], "s", "5 and 9"),
+        _question("way of a run", [distance], "m", "6 and 10"),
+    ]
+
+
+def _question(name, values, unit, questions):
+    listed = join([f"{value:g}" for value in values]) + SPACE + unit
+    return {"what": name, "value": listed, "questions": questions}
 
 
 def synthetic_note(data):
@@ -174,8 +244,7 @@ def _interval(stiffness):
 def _static(fit, load):
     """The displacement at rest, and whether anybody has measured there."""
     x = fit.displacement(load)
-    measured = fit.results.model.exog[:, 1]
-    outside = x > measured.max() or x < measured.min()
+    outside = x > fit.x.max() or x < fit.x.min()
     return fixed(x, 3) + (", outside the measured range" if outside else "")
 
 
@@ -201,8 +270,8 @@ def stiffness_sentence(fit, load):
             "The data contradict a line through the origin, so the slope of the best such line is "
             "no more than a mean over the measured range."
         )
-    parts.append(_at_rest(fit, load))
-    return " ".join(parts)
+    parts += [_at_rest(fit, load), caution(fit, "The intervals")]
+    return " ".join(filter(None, parts))
 
 
 def _with_interval(stiffness):
@@ -240,6 +309,25 @@ def _compared(tangent, slope):
     low, high = slope.interval()
     inside = "inside" if low <= tangent.value <= high else "**outside**"
     return f"{percent(abs(change))} {more} than the slope at zero and {inside} its interval"
+
+
+def caution(fit, subject="The interval"):
+    """A warning beside what rests on independent errors, empty if the residuals allow them.
+
+    Parameters
+    ----------
+    fit : SpringFit
+    subject : {"The interval", "The intervals", "The confidence", "The F test"}
+    """
+    neighbours = fit.neighbours
+    if not neighbours.suspicious:
+        return ""
+    suppose, they = ("suppose", "they") if subject.endswith("s") else ("supposes", "it")
+    return (
+        f"{subject} {suppose} independent errors, but "
+        f"[neighbouring residuals correlate]({BETRAYED}) with "
+        f"{fixed(neighbours.correlation, 2)}: {they} cannot be relied on."
+    )
 
 
 # --- what they do to the critical speeds ------------------------------------------------------

@@ -1,7 +1,6 @@
 """The experiments of the page with the sliders, in words that fit the spring."""
 
-import numpy as np
-
+from suspension.frequency import speed_in_step
 from suspension.report.words import SPACE, fixed, join, number, speed_list
 
 __all__ = ["experiments", "presets"]
@@ -49,7 +48,7 @@ def presets(robot, flips, limit, slider):
         ("Stable, wrong", wrong),
         ("The spring", {"v": 5.0} | ({"k": float(flips[0])} if len(flips) else {})),
     ]
-    speed = _speed_in_step(robot)
+    speed = speed_in_step(robot)
     if speed is not None:
         found += [("In step", {"v": speed}), ("Out of step", {"v": 2 * speed})]
     return found
@@ -123,7 +122,7 @@ def _spring(flips):
 
 def _in_step(robot):
     """The speeds at which the rear wheel meets the bump in or out of step with the heave."""
-    one = _speed_in_step(robot)
+    one = speed_in_step(robot)
     if one is None:
         return ""
     return (
@@ -132,21 +131,6 @@ def _in_step(robot):
         "wheel meets the bump one heave period, or half of one, after the front wheel. One builds "
         "the heave up, the other takes it away."
     )
-
-
-def _speed_in_step(robot):
-    """The speed at which one heave period passes between the wheels, m/s; None without a swing."""
-    heave = max(robot.eigenvalues, key=lambda z: _heave_share(robot, z))
-    if heave.imag == 0:
-        return None
-    return float((robot.L1 + robot.L2) * abs(heave.imag) / (2 * np.pi))
-
-
-def _heave_share(robot, z):
-    """How much of a mode is heave, 0 to 1."""
-    k = np.abs(robot.eigenvalues - z).argmin()
-    heave, _, pitch, _ = np.abs(robot.eigenvectors[:, k])
-    return heave / (heave + max(robot.L1, robot.L2) * pitch)
 
 
 def _ms(t):

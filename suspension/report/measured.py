@@ -1,13 +1,14 @@
-"""Sentences, tables and captions of Part VII: the measured spring with its stop.
+"""Sentences, tables and captions of Part VIII: the measured spring with its stop.
 
-In all of them a law is called by its name; `runs` and `drawn` hold a `suspension.measured.Drive`
-for each law, at the asked speeds and, in `drawn`, for all draws of the coefficients (draw, speed).
-The first law is the line.
+In all of them a law is called by its name, and the first is the line. `runs` holds a
+`suspension.sweep.Drive` for each law at the asked speeds, on a ground that only pushes; `study` is
+a `suspension.measured.Study`. After a loss of contact no margin is told: it is a sign and a place.
 """
 
 import numpy as np
 
-from suspension.measured import REACH, linearised, rest
+from suspension.forces import WHEEL
+from suspension.measured import REACH, same_speed
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -22,17 +23,18 @@ from suspension.report.words import (
     speed_list,
 )
 from suspension.schemes import RK4
+from suspension.spring_law import linearised, rest
 
 __all__ = [
-    "angle_sentence",
-    "asked_table",
+    "aftermath_table",
+    "aftermath_words",
     "conclusions",
     "cost_sentence",
     "cost_table",
     "critical_table",
     "draws_sentence",
+    "geometry_sentence",
     "law_caption",
-    "limit_sentence",
     "limit_table",
     "margins_caption",
     "order_caption",
@@ -41,21 +43,17 @@ __all__ = [
     "regions_caption",
     "run_caption",
     "sign_table",
-    "statics_sentence",
     "statics_table",
     "stiffness_caption",
     "stiffness_sentence",
     "survival_sentence",
-    "tilted_sentence",
     "verdict_sentence",
     "verdict_table",
 ]
 
-SAME = 0.1  # critical speeds of two laws nearer than this (relative) are called the same
 ROUNDOFF = 1e-9  # N
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
 KINK = 2.6  # an order below this is that of a kink, with its scatter
-SURE = 0.025  # a verdict with a smaller share of doubt is signed
 
 
 # --- the law, at rest -----------------------------------------------------------------------------
@@ -65,20 +63,8 @@ def law_caption(fit, at_rest, farthest):
     """Caption of the laws; displacements at rest and farthest of the line, over delta_max."""
     x = np.linspace(0, 1, 101)
     apart = np.abs(fit.beta[0] + fit.beta[2] * x**2).max() / fit.beta.sum()
-    if apart < ALIKE:
-        words = "Where it was measured they hardly differ."
-    else:
-        words = (
-            "The line has the parabola's slope at zero and leaves the readings; the others follow "
-            "them."
-        )
-    if farthest > 1:
-        words += r" Beyond $\delta_{\max}$ (grey) each is an assumption."
-    else:
-        words += (
-            r" Beyond $\delta_{\max}$ (grey) each is an assumption; the line does not go there."
-        )
-    text = f"Four laws for one spring. {words}"
+    where = "they hardly differ." if apart < ALIKE else "only the line leaves the readings."
+    beyond = "." if farthest > 1 else "; the line does not go there."
     alt = (
         "Force against displacement over delta_max: the readings, a line, the fitted parabola with "
         "its end tangents, and the parabola with a rubber and with a metal stop, which turn up "
@@ -86,192 +72,35 @@ def law_caption(fit, at_rest, farthest):
         f"displacement at rest, {fixed(at_rest, 2)}, and the farthest that the line is driven to, "
         f"{fixed(farthest, 2)}."
     )
+    text = (
+        f"Four laws for one spring. Where it was measured {where} Beyond "
+        rf"$\delta_{{\max{{}}}}$ (grey) each is an assumption{beyond}"
+    )
     return Caption(text, alt)
 
 
 def statics_table(laws, robot):
     """Where the robot rests on each law, what it feels there, and how it swings."""
-    rows = []
+    rows, beyond = [], []
     for name, law in laws.items():
-        tangent = linearised(robot, law)
-        heave = np.sqrt(2 * tangent.k1 / robot.m) / (2 * np.pi)
+        tangent, at_rest = linearised(robot, law), -rest(robot, law)[0] / law.delta_max
         rows.append(
             {
                 "law": name,
-                r"at rest, of $\delta_{\max}$": fixed(-rest(robot, law)[0] / law.delta_max, 4),
+                r"at rest, of $\delta_{\max{}}$": fixed(at_rest, 4),
                 "tangent there (N/m)": number(tangent.k1, 4),
-                "heave (Hz)": fixed(heave, 3),
+                "heave (Hz)": fixed(np.sqrt(2 * tangent.k1 / robot.m) / (2 * np.pi), 3),
             }
         )
-    return table(rows)
-
-
-def statics_sentence(line, law, robot):
-    """What preload and curvature do to the rest; `law` is the parabola without a stop."""
-    before, after = (-rest(robot, one)[0] / one.delta_max for one in (line, law))
-    slopes = [linearised(robot, one).k1 for one in (line, law)]
-    change = slopes[1] / slopes[0] - 1
-    words = (
-        rf"Preload and curvature move the rest from {fixed(before, 4)} to {fixed(after, 4)} of "
-        rf"$\delta_{{\max}}$, and the stiffness that small swings feel from "
-        f"{number(slopes[0], 4)} to {quantity(slopes[1], 'N/m', 4)}, "
-    )
-    if abs(change) < 1e-12:
-        words += "that is, not at all."
-    else:
-        words += f"{percent(abs(change))} {'more' if change > 0 else 'less'}."
-    if after > 1:
-        words += (
-            r" **The robot rests beyond $\delta_{\max}$**: with a stop it stands on it, before it "
-            "has driven a step."
-        )
-    return words
-
-
-# --- verdicts and critical speeds -----------------------------------------------------------------
-
-
-def verdict_table(asked, runs):
-    """Kept, with the least force, or lost, and where: a row for each speed, a column for a law."""
-    rows = []
-    for i, v in enumerate(asked):
-        cells = {name: _cell(run, i) for name, run in runs.items()}
-        rows.append({"v (m/s)": f"{v:g}", **cells})
+        if at_rest > 1:
+            beyond.append(name)
+    if not beyond:
+        return table(rows)
     note = (
-        "*Kept* with the least force of both wheels; *lost* with the place $X$ of the body when it "
-        "happens."
+        rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on: {join(beyond)}. With a stop it "
+        "stands on it before it has driven a step."
     )
     return f"{table(rows)}\n\n{note}"
-
-
-def _cell(run, i):
-    if run.margin[i] > 0:
-        return f"kept, {fixed(run.margin[i], 2)}{SPACE}N"
-    return f"lost, {fixed(run.lost[i], 3)}{SPACE}m"
-
-
-def _lost(runs):
-    """For each law by name whether contact is lost, bool (m,)."""
-    return {name: np.asarray(run.margin) <= 0 for name, run in runs.items()}
-
-
-def verdict_sentence(asked, runs):
-    """Which of the asked verdicts do not depend on the law; the first law is the line."""
-    lost = _lost(runs)
-    line = next(iter(lost))
-    same, turned = [], {}
-    for i, v in enumerate(asked):
-        others = tuple(name for name in lost if lost[name][i] != lost[line][i])
-        if others:
-            turned.setdefault((bool(lost[line][i]), others), []).append(v)
-        else:
-            same.append(v)
-    words = []
-    for (gone, others), speeds in turned.items():
-        was, now = ("lost", "kept") if gone else ("kept", "lost")
-        words.append(
-            f"At {speed_list(speeds)} contact is {was} on the line and **{now}** on: "
-            f"{join(others)}."
-        )
-    if not words:
-        return (
-            f"At {'all' if len(asked) > 1 else ''} {count(len(asked), 'asked speed')} the verdict "
-            "is the same on every law."
-        ).replace("  ", " ")
-    if same:
-        words.insert(0, f"At {speed_list(same)} every law gives the verdict of the line.")
-    return " ".join(words)
-
-
-def angle_sentence(asked, runs, angles):
-    """What the true geometry changes; `angles` are the runs without the small angle."""
-    lost, tilted = _lost(runs), _lost(angles)
-    other = [(v, name) for name in runs for i, v in enumerate(asked)
-             if lost[name][i] != tilted[name][i]]  # fmt: skip
-    kept = [
-        abs(angles[name].margin[i] - runs[name].margin[i])
-        for name in runs
-        for i in range(len(asked))
-        if not lost[name][i] and not tilted[name][i]
-    ]
-    words = r"With $\sin\theta$ and $\cos\theta$ in place of $\theta$ and 1, "
-    if other:
-        where = join(f"{v:g}{SPACE}m/s ({name})" for v, name in other)
-        words += f"the verdict turns at {where}."
-    else:
-        words += "no verdict turns."
-    if kept:
-        words += (
-            f" Where contact is kept the margin moves by at most {quantity(max(kept), 'N', 2)}."
-        )
-    return words
-
-
-def tilted_sentence(critical, tilted):
-    """What the true geometry does to the critical speeds of the parabola, m/s."""
-    if len(critical) != len(tilted):
-        return (
-            rf"With $\sin\theta$ the parabola has {count(len(tilted), 'critical speed')} "
-            f"instead of {len(critical)}."
-        )
-    if not len(critical):
-        return r"With $\sin\theta$ the parabola has no critical speed either."
-    moved = np.abs(np.asarray(tilted) / critical - 1).max()
-    return rf"$\sin\theta$ moves the critical speeds of the parabola by at most {percent(moved)}."
-
-
-def margins_caption(critical):
-    """Caption of the margins; `critical` holds the critical speeds for each law, m/s."""
-    each = "; ".join(f"{name}: {speed_list(v, none='none')}" for name, v in critical.items())
-    text = (
-        "The margin against speed on four laws, cut off where it is far below zero. Symbols: "
-        "critical speeds; dotted: the asked speeds. Below zero (shaded) contact is lost."
-    )
-    alt = (
-        "Least normal force against speed on a logarithmic axis, a curve for each of the laws. "
-        f"They cross zero at: {each}."
-    )
-    return Caption(text, alt)
-
-
-def survival_sentence(critical):
-    """Which critical speeds of the line are there on the other laws, and how far they move."""
-    names = list(critical)
-    line = critical[names[0]]
-    if not len(line):
-        others = [name for name in names[1:] if len(critical[name])]
-        if not others:
-            return "The line has no critical speed in the range, and neither has any other law."
-        return (
-            "The line has no critical speed in the range, but there are some on other laws: "
-            f"{join(others)}."
-        )
-    words = [f"The line has {count(len(line), 'critical speed')}."]
-    for name in names[1:]:
-        pairs = [(v, _nearest(critical[name], v)) for v in line]
-        there = [(v, w) for v, w in pairs if w is not None]
-        gone = [v for v, w in pairs if w is None]
-        matched = {w for _, w in there}
-        new = [w for w in critical[name] if w not in matched]
-        parts = []
-        if there:
-            moved = max(abs(w / v - 1) for v, w in there)
-            which = "all of them stay" if not gone else f"{speed_list([v for v, _ in there])} stays"
-            which = which.replace("stays", "stay") if len(there) > 1 else which
-            shift = f", moved by at most {percent(moved)}" if moved > 1e-9 else ""
-            parts.append(which + shift)
-        if gone:
-            parts.append(f"there is none at {speed_list(gone)}" if there else "none of them stays")
-        if new:
-            parts.append(f"there are others, at {speed_list(new)}")
-        words.append(f"*{name.capitalize()}*: {'; '.join(parts)}.")
-    return " ".join(words)
-
-
-def _nearest(speeds, v):
-    """The one nearest to `v`, None if it is not the same within `SAME`."""
-    near = [w for w in speeds if abs(np.log(w / v)) < SAME]
-    return min(near, key=lambda w: abs(np.log(w / v)), default=None)
 
 
 def reach_table(asked, heights, linear, runs, delta_max):
@@ -288,17 +117,187 @@ def reach_table(asked, heights, linear, runs, delta_max):
     for height, one, other in zip(heights, linear, runs):
         cells = {}
         for i, v in enumerate(asked):
-            mark = "*" if other.compression[i] > delta_max else ""
-            wrong = (one.margin[i] > 0) != (other.margin[i] > 0)
             error = one.margin[i] - other.margin[i]
-            error = number(error, 2) if abs(error) > ROUNDOFF else "0"
-            cells[f"{v:g} m/s"] = error + mark + (" (**another verdict**)" if wrong else "")
+            if one.kept[i] and other.kept[i]:
+                cell = number(error, 2) if abs(error) > ROUNDOFF else "0"
+            elif one.kept[i] == other.kept[i]:
+                cell = "lost on both"
+            else:
+                cell = "**another verdict**"
+            cells[f"{v:g} m/s"] = cell + ("\\*" if other.compression[i] > delta_max else "")
         rows.append({"bump (mm)": fixed(1000 * height, 1), **cells})
     note = (
         "Margin of the linear robot (the tangent at rest) minus that of the law, in N. An "
-        "asterisk: a spring is on its stop at some moment before any loss of contact."
+        "asterisk: a spring is on its stop at some moment."
     )
     return f"{table(rows)}\n\n{note}"
+
+
+# --- verdicts and critical speeds -----------------------------------------------------------------
+
+
+def verdict_table(asked, runs):
+    """Kept, with the least force, or lost, by which wheel and where: a row for each speed."""
+    rows = [
+        {"v (m/s)": f"{v:g}", **{name: _cell(run, i) for name, run in runs.items()}}
+        for i, v in enumerate(asked)
+    ]
+    note = (
+        "*Kept* with the least force of both wheels; *lost* with the wheel that leaves the ground "
+        "first and the place $X$ of the body then."
+    )
+    return f"{table(rows)}\n\n{note}"
+
+
+def _cell(run, i):
+    if run.kept[i]:
+        return f"kept, {fixed(run.margin[i], 2)}{SPACE}N"
+    return f"lost, {WHEEL[run.wheel[i]]}, {fixed(run.lost[i], 4)}{SPACE}m"
+
+
+def verdict_sentence(asked, runs):
+    """Which of the asked verdicts do not depend on the law."""
+    (line, own), *others = runs.items()
+    same, turned = [], {}
+    for i, v in enumerate(asked):
+        differ = tuple(name for name, run in others if run.kept[i] != own.kept[i])
+        if differ:
+            turned.setdefault((bool(own.kept[i]), differ), []).append(v)
+        else:
+            same.append(v)
+    if not turned:
+        return f"At {speed_list(same)} the verdict is the same on every law."
+    words = [f"At {speed_list(same)} every law gives the verdict of the {line}."] if same else []
+    for (kept, names), speeds in turned.items():
+        was, now = ("kept", "lost") if kept else ("lost", "kept")
+        words.append(
+            f"At {speed_list(speeds)} contact is {was} on the {line} and **{now}** on: "
+            f"{join(names)}."
+        )
+    return " ".join(words)
+
+
+def aftermath_table(asked, runs, delta_max):
+    """What a ground that only pushes does to the robot: largest values of the whole way."""
+    rows = []
+    for i, v in enumerate(asked):
+        for name, run in runs.items():
+            rows.append(
+                {
+                    "v (m/s)": f"{v:g}",
+                    "law": name,
+                    "acceleration (m/s²)": number(run.acceleration[i]),
+                    r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
+                    "in the air, rear (ms)": _air(run.airtime[0, i]),
+                    "front (ms)": _air(run.airtime[1, i]),
+                    "flights": str(run.flights[:, i].sum()),
+                }
+            )
+    return table(rows)
+
+
+def _air(seconds):
+    return fixed(1000 * seconds, 1) if seconds else "–"
+
+
+def aftermath_words(asked, runs):
+    """Where the law matters most to what the robot feels."""
+    felt = np.array([run.acceleration for run in runs.values()])
+    i = int(np.argmax(felt.max(axis=0) / felt.min(axis=0)))
+    ratio = felt[:, i].max() / felt[:, i].min()
+    if ratio < 1 + ALIKE:
+        return "What the body feels hardly depends on the law at any asked speed."
+    hardest, softest = (list(runs)[f(felt[:, i])] for f in (np.argmax, np.argmin))
+    return (
+        f"What the body feels depends on the law most at {speed_list([asked[i]])}: the largest "
+        f"acceleration on the {hardest} is {number(ratio, 2)} times that on the {softest}."
+    )
+
+
+def geometry_sentence(asked, runs, full, critical, tilted):
+    """What the full geometry changes.
+
+    Parameters
+    ----------
+    full : dict of str to Drive
+        As `runs`, with the full geometry.
+    critical, tilted : array_like
+        Critical speeds of the parabola, m/s, with a small pitch and with the full geometry.
+    """
+    turned, moved = [], []
+    for name, run in runs.items():
+        other = full[name]
+        turned += [f"{v:g}{SPACE}m/s ({name})" for v in np.extract(run.kept != other.kept, asked)]
+        moved += list(np.abs(other.margin - run.margin)[run.kept & other.kept])
+    words = r"With $\sin\theta$ and $\cos\theta$ in place of $\theta$ and 1, "
+    words += f"the verdict turns at {join(turned)}." if turned else "no verdict turns."
+    if moved:
+        words += (
+            f" Where contact is kept the margin moves by at most {quantity(max(moved), 'N', 2)}."
+        )
+    if len(critical) != len(tilted):
+        words += (
+            f" The parabola then has {count(len(tilted), 'critical speed')} instead of "
+            f"{count(len(critical), 'one').split()[0]}."
+        )
+    elif len(critical):
+        moved = np.abs(np.asarray(tilted) / critical - 1).max()
+        words += f" The critical speeds of the parabola move by at most {percent(moved)}."
+    return words
+
+
+def margins_caption(critical):
+    """Caption of the margins; `critical` holds the critical speeds for each law, m/s."""
+    each = "; ".join(f"{name}: {speed_list(v, none='none')}" for name, v in critical.items())
+    text = (
+        "The margin against speed on four laws. Symbols: critical speeds; dotted: the asked "
+        "speeds. Where a curve lies on zero, contact is lost."
+    )
+    alt = (
+        "Least normal force against speed on a logarithmic axis, a curve for each of the laws, "
+        f"zero where contact is lost. Critical speeds: {each}."
+    )
+    return Caption(text, alt)
+
+
+def survival_sentence(critical):
+    """Which critical speeds of the line are there on the other laws, and how far they move."""
+    (_, line), *others = critical.items()
+    if not len(line):
+        found = [name for name, speeds in others if len(speeds)]
+        if not found:
+            return "The line has no critical speed in the range, and neither has any other law."
+        return (
+            f"The line has no critical speed in the range, but other laws have some: {join(found)}."
+        )
+    words = [f"The line has {count(len(line), 'critical speed')}."]
+    words += [f"*{name.capitalize()}*: {_survivors(line, speeds)}." for name, speeds in others]
+    return " ".join(words)
+
+
+def _survivors(line, speeds):
+    pairs = {v: same_speed(speeds, v) for v in line}
+    stay = [v for v, w in pairs.items() if w is not None]
+    gone = [v for v, w in pairs.items() if w is None]
+    new = [w for w in speeds if w not in pairs.values()]
+    parts = []
+    if stay:
+        moved = max(abs(pairs[v] / v - 1) for v in stay)
+        which = "all stay" if not gone else f"{speed_list(stay)} {_verb('stay', stay)}"
+        if len(line) == 1:
+            which = "it stays"
+        parts.append(which + (f", moved by at most {percent(moved)}" if moved > ROUNDOFF else ""))
+    if gone:
+        parts.append(f"there is none at {speed_list(gone)}" if stay else "none of them stays")
+    if new:
+        parts.append(
+            f"there {'is another' if len(new) == 1 else 'are others'}, at {speed_list(new)}"
+        )
+    return "; ".join(parts)
+
+
+def _verb(verb, things):
+    return verb if len(things) > 1 else verb + "s"
 
 
 def run_caption(v, shown, delta_max):
@@ -319,45 +318,42 @@ def run_caption(v, shown, delta_max):
     return Caption(text, alt)
 
 
-def stiffness_caption(ratio, margins):
-    """Caption of the margin over the stiffness of the stop."""
+def stiffness_caption(ratio, felt):
+    """Caption of the acceleration over the stiffness of the stop; `felt` in m/s^2 by speed."""
     text = (
-        "The margin at the asked speeds against the stiffness of the stop, from a tenth of the "
-        "spring's to ten thousand times as stiff. Dotted: the two stops of this part. The axis "
-        "of the force is linear up to 10 N, logarithmic beyond."
+        "The largest acceleration at the asked speeds, on a ground that only pushes, against the "
+        "stiffness of the stop. Filled symbols: contact is kept; open ones: it is lost. Dotted: "
+        "the two stops of this part."
     )
     each = join(
-        f"from {number(m[0], 2)} to {number(m[-1], 2)}{SPACE}N at {v:g}{SPACE}m/s"
-        for v, m in margins.items()
+        f"from {number(a[0], 2)} to {number(a[-1], 2)}{SPACE}m/s² at {v:g}{SPACE}m/s"
+        for v, a in felt.items()
     )
     alt = (
-        f"Least normal force against stop stiffness, {number(ratio[0], 2)} to "
-        f"{number(ratio[-1], 2)} times that of the spring: {each}."
+        f"Largest acceleration against stop stiffness, {number(ratio[0], 2)} to "
+        f"{number(ratio[-1], 2)} times that of the spring, both on logarithmic axes: {each}."
     )
     return Caption(text, alt)
 
 
-def stiffness_sentence(ratio, margins):
-    """Whether the verdict depends on how stiff the stop is."""
-    ratio = np.asarray(ratio)
-    turns, steady = [], []
-    for v, margin in margins.items():
-        flips = ratio[1:][np.diff(np.sign(margin)) != 0]
-        if len(flips):
-            turns.append((v, flips))
-        else:
-            steady.append(v)
+def stiffness_sentence(turns):
+    """Whether the verdict depends on how stiff the stop is; `turns`: where it turns, by speed.
+
+    Where is the stiffness of the stop over that of the spring.
+    """
+    steady = [v for v, ratios in turns.items() if not len(ratios)]
     words = []
     if steady:
         words.append(
             f"At {speed_list(steady)} the verdict is the same for every stop of this range: its "
             "stiffness need not be known."
         )
-    for v, flips in turns:
-        words.append(
-            f"At {speed_list([v])} it turns near {join(number(r, 2) for r in flips)} times the "
-            "stiffness of the spring."
-        )
+    for v, ratios in turns.items():
+        if len(ratios):
+            words.append(
+                f"At {speed_list([v])} it turns at {join(number(r) for r in ratios)} times the "
+                "stiffness of the spring."
+            )
     return " ".join(words)
 
 
@@ -366,51 +362,37 @@ def stiffness_sentence(ratio, margins):
 
 def limit_table(eigenvalues, dt):
     """Fastest eigenvalue on each law, the longest stable step of RK4, and whether `dt` is one."""
-    rows = []
-    for name, values in eigenvalues.items():
-        rows.append(
+    return table(
+        [
             {
                 "law": name,
                 r"$\max\lvert\lambda\rvert$ (1/s)": number(np.abs(values).max(), 3),
                 r"longest stable $\Delta t$ of RK4 (ms)": number(
                     1000 * RK4.max_stable_dt(values), 3
                 ),
-                rf"$\Delta t$ = {dt:g}{SPACE}s": "**stable**"
-                if RK4.is_stable(values, dt)
-                else "**unstable**",
+                rf"$\Delta t$ = {dt:g}{SPACE}s": _stable(values, dt, mark="**"),
             }
-        )
-    return table(rows)
-
-
-def limit_sentence(eigenvalues, dt):
-    """How the stop shortens the step; the first law has none, the last has the stiffest."""
-    names = list(eigenvalues)
-    longest = {name: RK4.max_stable_dt(values) for name, values in eigenvalues.items()}
-    factor = longest[names[0]] / longest[names[-1]]
-    words = (
-        f"The stiffest of these stops shortens the longest stable step {number(factor, 2)} times, "
-        r"like $\sqrt{k_\mathrm{s}/k}$."
+            for name, values in eigenvalues.items()
+        ]
     )
-    bad = [name for name in names if longest[name] < dt]
-    if not bad:
-        return f"{words} The problem's {dt:g}{SPACE}s is stable on all of them."
-    return f"{words} The problem's {dt:g}{SPACE}s is no longer stable on: {join(bad)}."
+
+
+def _stable(eigenvalues, dt, mark=""):
+    return f"{mark}{'stable' if RK4.is_stable(eigenvalues, dt) else 'unstable'}{mark}"
 
 
 def regions_caption(eigenvalues, dts):
     """Caption of the stability diagram with the eigenvalues on and off the stop."""
     each = "; ".join(
-        f"{name} at {dt:g} s {'stable' if RK4.is_stable(values, dt) else 'unstable'}"
+        f"{name} at {dt:g} s {_stable(values, dt)}"
         for dt in dts
         for name, values in eigenvalues.items()
     )
-    text = (
+    return Caption(
         r"The diagram of Question 7 once more: the same method, other eigenvalues. On the stop "
-        r"$\lambda\Delta t$ grows along the imaginary axis."
+        r"$\lambda\Delta t$ grows along the imaginary axis.",
+        f"Region of absolute stability of RK4 with the points lambda dt of each law: {each}.",
     )
-    alt = f"Region of absolute stability of RK4 with the points lambda dt of each law: {each}."
-    return Caption(text, alt)
 
 
 def order_caption(v, orders):
@@ -428,18 +410,17 @@ def order_sentence(orders):
     if not orders:
         return "The errors are too small, beside those of Radau, to show an order."
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
-    words = f"Observed orders: {each}."
-    if max(orders.values()) < KINK:
-        return (
-            f"{words} On the stop the order is [that of a kink](06-flight.ipynb#one-bad-step), two."
-        )
     first, *others = orders.values()
-    if first > KINK > max(others, default=first):
-        return (
-            f"{words} A stop is a kink of the force, and a kink costs RK4 its order: "
-            "[two is what is left](06-flight.ipynb#one-bad-step)."
+    if max(orders.values()) < KINK:
+        what = "On the stop the order is [that of a kink](07-flight.ipynb#one-bad-step), two."
+    elif first > KINK > max(others, default=first):
+        what = (
+            "A stop is a kink of the force, and a kink costs RK4 its order: "
+            "[two is what is left](07-flight.ipynb#one-bad-step)."
         )
-    return f"{words} With these steps the kink does not show everywhere."
+    else:
+        what = "With these steps the kink does not show everywhere."
+    return f"Observed orders: {each}. {what}"
 
 
 def cost_table(rows):
@@ -465,43 +446,30 @@ def _times(ratio):
 
 
 def _error(row):
-    if not row["stable"]:
-        size = number(row["error"], 1) if np.isfinite(row["error"]) else "overflow"
-        return f"{size} (unstable)"
-    return number(row["error"], 2)
+    if row["stable"]:
+        return number(row["error"], 2)
+    return f"{number(row['error'], 1) if np.isfinite(row['error']) else 'overflow'} (unstable)"
 
 
 def cost_sentence(rows):
-    """Whether the implicit step is worth its price, stop by stop."""
-    words = []
-    for stop in dict.fromkeys(row["stop"] for row in rows):
-        pairs = {}
-        for row in rows:
-            if row["stop"] == stop:
-                pairs.setdefault(row["steps"], {})[row["method"]] = row
-        name = f"With a stop of {_times(stop)} times the spring"
-        broken = [J for J, pair in pairs.items() if not pair["RK4"]["stable"]]
-        both = [J for J in pairs if J not in broken]
-        parts = []
-        if broken:
-            worst = max(pairs[J]["Crank-Nicolson"]["error"] for J in broken)
-            parts.append(
-                f"RK4 is unstable with {join(broken)} steps, where Crank-Nicolson stays finite and "
-                f"is wrong by up to {percent(worst)}"
-            )
-        if both:
-            better = [
-                J for J in both
-                if pairs[J]["RK4"]["error"] <= pairs[J]["Crank-Nicolson"]["error"]
-            ]  # fmt: skip
-            price = np.mean([pairs[J]["Crank-Nicolson"]["solves"] / J for J in both])
-            which = f"with {join(better)} steps" if better else "in no stable case"
-            parts.append(
-                f"RK4 is the more accurate {which}, and Crank-Nicolson solves "
-                f"{fixed(price, 1)} linear systems a step"
-            )
-        words.append(f"{name} {'; '.join(parts)}.")
-    return " ".join(words)
+    """Whether the implicit step is worth its price; the methods stand in pairs, RK4 first."""
+    pairs = list(zip(rows[::2], rows[1::2]))
+    stable = [(explicit, other) for explicit, other in pairs if explicit["stable"]]
+    better = sum(explicit["error"] <= other["error"] for explicit, other in stable)
+    words = f"RK4 is stable in {len(stable)} of {len(pairs)} cases"
+    if stable:
+        price = np.mean([other["solves"] / other["steps"] for _, other in stable])
+        words += (
+            f", and in {better} of these the more accurate of the two; there Crank-Nicolson solves "
+            f"{fixed(price, 1)} linear systems a step"
+        )
+    if len(stable) < len(pairs):
+        worst = max(other["error"] for explicit, other in pairs if not explicit["stable"])
+        words += (
+            ". Where RK4 is unstable Crank-Nicolson stays finite and is wrong by up to "
+            f"{percent(worst)}"
+        )
+    return words + "."
 
 
 # --- how well it is known -------------------------------------------------------------------------
@@ -518,7 +486,7 @@ def draws_sentence(kept, drawn, linear):
     else:
         words += (
             f"; {drawn - kept} are left out because their parabola bends down before "
-            r"$\delta_{\max}$, which no spring does: the intervals leave this doubt aside."
+            r"$\delta_{\max{}}$, which no spring does: the intervals leave this doubt aside."
         )
     if not linear:
         words += (
@@ -528,229 +496,171 @@ def draws_sentence(kept, drawn, linear):
     return words
 
 
-def _share(lost):
-    """A share of draws as words that claim no more than so many draws can tell."""
-    lost = np.asarray(lost)
-    n, found = lost.size, int(lost.sum())
-    if found == 0:
-        return f"<{SPACE}{number(100 / n, 1)}{SPACE}%"
-    if found == n:
-        return f">{SPACE}{fixed(100 - 100 / n, 1)}{SPACE}%"
-    return percent(found / n)
+def _share(share):
+    """A share of draws, with its bound where there is none or nothing else."""
+    if share.found == 0:
+        return f"<{SPACE}{percent(share.high)}"
+    if share.found == share.n:
+        return f">{SPACE}{percent(share.low, 3)}"
+    return percent(share.value)
 
 
-def _range(values, decimals=2):
-    low, high = np.quantile(values, [0.025, 0.975])
-    return interval(low, high, decimals=decimals)
-
-
-def asked_table(asked, runs, drawn):
-    """For each asked speed and law the margin, its interval, and the share of draws that lose."""
-    rows = []
-    for i, v in enumerate(asked):
-        together = np.concatenate([drawn[name].margin[:, i] for name in drawn])
-        for name in drawn:
-            rows.append(
-                {
-                    "v (m/s)": f"{v:g}",
-                    "law": name,
-                    "margin (N)": fixed(runs[name].margin[i], 2),
-                    "95 % interval (N)": _range(drawn[name].margin[:, i]),
-                    "contact lost": _share(drawn[name].margin[:, i] <= 0),
-                }
-            )
-        rows.append(
-            {
-                "v (m/s)": f"{v:g}",
-                "law": "**all, with equal weights**",
-                "margin (N)": "–",
-                "95 % interval (N)": _range(together),
-                "contact lost": f"**{_share(together <= 0)}**",
-            }
-        )
-    return table(rows)
-
-
-def _share_lost(drawn, i):
-    """Share of all draws of all laws that lose contact at the i-th speed, 0 to 1."""
-    return float(np.mean([drive.margin[:, i] <= 0 for drive in drawn.values()]))
-
-
-def sign_table(asked, runs, drawn):
+def sign_table(study):
     """The verdicts as an engineer may sign them: parameters, model, both, and the outcome."""
-    lost = _lost({name: runs[name] for name in drawn})
-    line = next(iter(drawn))
-    rows = []
-    for i, v in enumerate(asked):
-        both = _share_lost(drawn, i)
-        alike = sum(lost[name][i] == lost[line][i] for name in drawn)
+    line, rows = study.laws[0], []
+    for i, v in enumerate(study.asked):
+        margins = study.margins(i, line)
         rows.append(
             {
                 "v (m/s)": f"{v:g}",
-                "verdict of the line": "lost" if lost[line][i] else "kept",
-                "parameters alone": _share(drawn[line].margin[:, i] <= 0) + " lost",
-                "model alone": f"{alike} of {len(drawn)} laws agree",
-                "both": _share(np.concatenate([d.margin[:, i] for d in drawn.values()]) <= 0)
-                + " lost",
-                "signed": _signed(both),
+                "verdict of the line": "lost" if study.verdicts(line)[i] else "kept",
+                "its margin, 95 % interval (N)": (
+                    "–" if margins is None else interval(*margins, decimals=2)
+                ),
+                "parameters alone": f"{_share(study.share(i, line))} lost",
+                "model alone": f"{study.agreeing(i)} of {len(study.laws)} laws agree",
+                "both": f"{_share(study.share(i))} lost",
+                "signed": f"**{_outcome(study.signed(i))}**",
             }
         )
     note = (
-        "*Parameters alone*: the share of the draws in which contact is lost on the line. *Model "
-        "alone*: at the estimates. *Both*: all draws of all laws, each law with the same weight. "
-        "The weights are a judgement, not a measurement. Signed is what at least "
-        f"{percent(1 - SURE, 3)} of them say."
+        "*Parameters alone*: the share of the draws in which contact is lost on the line; where "
+        f"it is lost in none or in all of the {study.share(0).n}, the 95 % bound that so many "
+        "independent draws give. *Model alone*: at the estimates. *Both*: all laws with the same "
+        "weight; as all have the same draws, these count once. The weights are a judgement, not "
+        "a measurement. Signed is what leaves less than 2.5 % of doubt."
     )
     return f"{table(rows)}\n\n{note}"
 
 
-def _signed(share):
-    if share >= 1 - SURE:
-        return "**lost**"
-    return "**kept**" if share <= SURE else "**open**"
+def _outcome(verdict):
+    return {True: "lost", False: "kept", None: "open"}[verdict]
 
 
-def critical_table(critical, followed):
-    """Critical speeds of every law with their intervals, then each speed over all laws.
-
-    Parameters
-    ----------
-    critical : dict of str to array_like, shape (n,)
-        m/s, for each law.
-    followed : dict of str to list of ndarray, shape (draws,)
-        Where each goes with the coefficients; nan where it was not found again.
-    """
-    rows = []
-    for name, speeds in critical.items():
-        for i, v in enumerate(speeds):
-            rows.append(_critical_row(name, v, followed[name][i]))
-    for v, found in _families(critical, followed):
-        rows.append(_critical_row("**all, with equal weights**", v, found))
+def critical_table(study):
+    """Critical speeds of every law with their intervals, then each speed over all laws."""
+    rows = [
+        _critical_row(name, v, followed)
+        for name in study.laws
+        for v, followed in zip(study.critical[name], study.followed[name])
+    ]
+    for family in study.families:
+        row = _critical_row("**all, with equal weights**", family.speed, family.followed.ravel())
+        rows.append(row | {"found": f"on {len(family.laws)} of {len(study.laws)} laws"})
     if not rows:
         return "No law has a critical speed in the range."
-    rows.sort(key=lambda row: row.pop("order"))
     note = (
-        "*Found*: in how many of the draws (of all laws, in the last rows) the margin changes its "
-        f"sign within a factor {REACH:g}. Where that is not in all of them, the interval is that "
+        "*Found*: in how many of the draws the margin changes its sign within a factor "
+        f"{REACH:g}. Where that is not in all of them, or not on all laws, the interval is that "
         "of those in which it is, and has no confidence level of its own."
     )
     return f"{table(rows)}\n\n{note}"
 
 
-def _critical_row(name, v, found):
-    there = found[np.isfinite(found)]
-    place = (1, v) if name.startswith("**") else (0, 0)
+def _critical_row(name, v, followed):
+    there = followed[np.isfinite(followed)]
+    ends = np.quantile(there, [0.025, 0.975]) if there.size else ()
     return {
         "law": name,
         "critical speed (m/s)": number(v, 4),
-        "95 % interval (m/s)": (
-            " to ".join(number(x, 4) for x in np.quantile(there, [0.025, 0.975]))
-            if there.size
-            else "–"
-        ),
-        "found": f"{there.size} of {found.size}",
-        "order": place,
+        "95 % interval (m/s)": " to ".join(number(x, 4) for x in ends) or "–",
+        "found": f"{there.size} of {followed.size}",
     }
 
 
-def _families(critical, followed):
-    """Critical speeds that are the same on several laws: one of them, and all of their draws.
-
-    A law that does not have one brings draws without it, nan.
-    """
-    draws = max((len(one) for values in followed.values() for one in values), default=0)
-    families = []
-    for name, speeds in critical.items():
-        for i, v in enumerate(speeds):
-            for family in families:
-                if name not in family[1] and abs(np.log(v / family[0])) < SAME:
-                    family[1][name] = followed[name][i]
-                    break
-            else:
-                families.append((v, {name: followed[name][i]}))
-    none = np.full(draws, np.nan)
-    return [
-        (v, np.concatenate([members.get(name, none) for name in critical]))
-        for v, members in sorted(families, key=lambda family: family[0])
-    ]
-
-
-def conclusions(asked, runs, drawn, critical, delta_max):
+def conclusions(study):
     """What an engineer should conclude, in five sentences."""
-    outcome = {v: _signed(_share_lost(drawn, i)).strip("*") for i, v in enumerate(asked)}
-    signed = {word: [v for v in asked if outcome[v] == word] for word in ("kept", "lost", "open")}
-    line = next(iter(drawn))
-    stands = [f"{word} at {speed_list(signed[word])}" for word in ("kept", "lost") if signed[word]]
-    sentences = []
-    if stands:
-        sentences.append(
-            f"Contact is {join(stands)}: neither the scatter of the readings nor the choice among "
-            "the four laws changes that."
-        )
-    else:
-        sentences.append("None of the asked verdicts can be signed whatever the law is.")
-    touched = [
-        v
-        for i, v in enumerate(asked)
-        if max(runs[name].compression[i] for name in drawn) > delta_max
+    sentences = [f(study) for f in (_stands, _open, _critical, _readings_or_law, _measure)]
+    return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
+
+
+def _signed(study, verdict):
+    return [v for i, v in enumerate(study.asked) if study.signed(i) is verdict]
+
+
+def _stands(study):
+    stands = [
+        f"{word} at {speed_list(_signed(study, verdict))}"
+        for word, verdict in (("kept", False), ("lost", True))
+        if _signed(study, verdict)
     ]
-    where = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
-    beyond = [v for v in signed["open"] if v in touched]
-    within = [v for v in signed["open"] if v not in touched]
-    if beyond:
-        sentences.append(
-            f"At {speed_list(beyond)} the verdict is **open**: it is decided by what the spring "
+    if not stands:
+        return "None of the asked verdicts can be signed whatever the law is."
+    return (
+        f"Contact is {join(stands)}: neither the scatter of the readings nor the choice among "
+        "the four laws changes that."
+    )
+
+
+def _open(study):
+    beyond = [v for v, on in zip(study.asked, study.touched) if on]
+    unsure = _signed(study, None)
+    decided = [v for v in unsure if v in beyond]
+    if decided:
+        where = rf"$\delta_{{\max{{}}}}$ = {fixed(1000 * study.delta_max, 1)}{SPACE}mm"
+        return (
+            f"At {speed_list(decided)} the verdict is **open**: it is decided by what the spring "
             f"does beyond {where}, and of that there is not one reading."
         )
-    elif within:
-        sentences.append(
-            f"At {speed_list(within)} the verdict is **open**: the margin is too near to zero for "
+    if unsure:
+        return (
+            f"At {speed_list(unsure)} the verdict is **open**: the margin is too near to zero for "
             "these readings."
         )
-    else:
-        sentences.append("None of the asked verdicts is left open by these four laws.")
-    kept = [
+    return "None of the asked verdicts is left open by these four laws."
+
+
+def _critical(study):
+    line = study.critical[study.laws[0]]
+    kept = [v for v in line if all(same_speed(w, v) is not None for w in study.critical.values())]
+    gone = [v for v in line if v not in kept]
+    if not len(line):
+        return "The line has no critical speed in the range, so none can be lost."
+    if not gone:
+        return "Every critical speed of the line is there on all four laws."
+    stay = f"only {speed_list(kept)} {_verb('stay', kept)}" if kept else "none stays"
+    return (
+        f"Of the line's critical speeds {stay} on all four laws; {speed_list(gone)} "
+        f"{_verb('belong', gone)} to a spring that nobody has measured."
+    )
+
+
+def _readings_or_law(study):
+    """Whether the choice of the law or the scatter of the readings decides more verdicts."""
+    laws = len(study.laws)
+    turned = [v for i, v in enumerate(study.asked) if study.agreeing(i) < laws]
+    unsure = [
         v
-        for v in critical[line]
-        if all(_nearest(speeds, v) is not None for speeds in critical.values())
+        for i, v in enumerate(study.asked)
+        if any(study.share(i, name).verdict is None for name in study.laws)
     ]
-    gone = [v for v in critical[line] if v not in kept]
-    if not len(critical[line]):
-        sentences.append("The line has no critical speed in the range, so none can be lost.")
-    elif not gone:
-        sentences.append("Every critical speed of the line is there on all four laws.")
-    else:
-        stay = f"only {speed_list(kept)} stays" if kept else "none stays"
-        stay = stay.replace("stays", "stay") if len(kept) > 1 else stay
-        sentences.append(
-            f"Of the line's critical speeds {stay} on all four laws; {speed_list(gone)} belong to "
-            "a spring that nobody has measured."
+    if turned and not unsure:
+        return (
+            f"The law decides and the readings do not: at {speed_list(turned)} the laws disagree, "
+            "while on each of them the scatter of the readings leaves no verdict open."
         )
-    spread = [np.ptp([runs[name].margin[i] for name in drawn]) for i in range(len(asked))]
-    width = [
-        np.ptp(np.quantile(drawn[line].margin[:, i], [0.025, 0.975])) for i in range(len(asked))
-    ]
-    worst = int(np.argmax(spread))
-    if spread[worst] > width[worst]:
-        sentences.append(
-            f"The choice of the law weighs more than the readings: at {speed_list([asked[worst]])} "
-            f"it moves the margin by {quantity(spread[worst], 'N', 2)}, the readings move it by "
-            f"{quantity(width[worst], 'N', 2)}."
+    if turned:
+        return (
+            f"Law and readings both decide: at {speed_list(turned)} the laws disagree, and at "
+            f"{speed_list(unsure)} the scatter of the readings leaves the verdict on some law open."
         )
-    else:
-        sentences.append(
-            "The scatter of the readings weighs more than the choice of the law at every asked "
-            "speed: take more readings."
+    if unsure:
+        return (
+            f"The readings decide and the law does not: at {speed_list(unsure)} their scatter "
+            "leaves the verdict on some law open. Take more readings."
         )
-    if touched:
-        sentences.append(
-            f"Before anyone relies on a run at {speed_list(touched)}, press the spring on to its "
-            "stop and measure where that is and how stiff: a few readings there are worth more "
-            "than a hundred below."
+    return "Neither the law nor the scatter of the readings turns one of the asked verdicts."
+
+
+def _measure(study):
+    beyond = [v for v, on in zip(study.asked, study.touched) if on]
+    if not beyond:
+        return (
+            r"At none of the asked speeds does the spring go beyond $\delta_{\max{}}$: the stop "
+            "does not matter there."
         )
-    else:
-        sentences.append(
-            r"At none of the asked speeds does the spring go beyond $\delta_{\max}$: the stop does "
-            "not matter there."
-        )
-    return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
+    return (
+        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop "
+        "and measure where that is and how stiff: a few readings there are worth more than a "
+        "hundred below."
+    )

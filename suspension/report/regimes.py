@@ -1,14 +1,17 @@
-"""Sentences, tables and captions of Part V and the landing page: at which speeds contact is lost.
+"""Sentences, tables and captions of Part VI and the landing page: at which speeds contact is lost.
 
-In all of them `edges` are the critical speeds between the ends of the range looked at, m/s, shape
-(n + 1,), `lost` says for each of the n ranges between them whether contact is lost, and `beyond`
-holds the ranges of speed in which a spring is compressed further than it was measured, m/s,
-shape (m, 2). Words tell ranges of it that nearly touch, to a hundredth, as one.
+`regimes` is a `suspension.contact.Regimes` over the speeds looked at, `beyond` what
+`suspension.travel.overtravel` finds there: the ranges in which a spring is compressed further than
+it was measured. Words tell two of these that nearly touch, to a hundredth, as one.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
+from suspension.contact import is_lost
 from suspension.forces import WHEEL
+from suspension.problem import DISTANCE
 from suspension.report.data import existence, speed_digits
 from suspension.report.rows import table
 from suspension.report.words import (
@@ -16,15 +19,19 @@ from suspension.report.words import (
     Caption,
     confidence,
     count,
+    distinct,
     fixed,
     join,
     number,
     percent,
     quantity,
+    ranges,
+    small_angle,
     speed_list,
 )
 
 __all__ = [
+    "Asked",
     "afterwards",
     "balance_table",
     "beyond_words",
@@ -40,6 +47,7 @@ __all__ = [
     "margin_caption",
     "other_readings",
     "sensitivity_caption",
+    "stronger_dampers",
     "strongest",
     "travel_caption",
     "verdict",
@@ -49,19 +57,40 @@ WIDE = 1.1  # a range of speeds from v to 1.1 v can be driven in; a narrower one
 APART = 1.01  # two ranges, one to v, the other from 1.01 v on, are told as two
 
 
-def landing_opening(lost):
+class Asked(NamedTuple):
+    """What there is to say about an asked speed.
+
+    Attributes
+    ----------
+    v : float
+        m/s.
+    margin : float
+        By the asked stiffness, N.
+    stretch : float
+        The largest compression of a spring before a loss over that at which it was measured.
+    flips : sequence of float
+        Stiffnesses at which the verdict turns, N/m.
+    lost : dict of str to float
+        For each reading of the data by name the confidence that contact is lost, 0 to 1.
+    """
+
+    v: float
+    margin: float
+    stretch: float
+    flips: tuple
+    lost: dict
+
+
+def landing_opening(regimes):
     """What the first lines of the book promise: whether the answer is what one expects."""
-    expected = "One would expect: above some speed."
-    lost = list(map(bool, lost))
-    if lost == [False, True]:
-        return f"{expected} With this spring that is the answer."
-    if lost == [False]:
-        return f"{expected} With this spring they do not, at any speed that was looked at."
-    if lost == [True]:
-        return f"{expected} With this spring they do at every speed that was looked at."
-    if lost == [True, False]:
-        return f"{expected} With this spring it is the other way round."
-    return f"{expected} The answer is stranger."
+    answers = {
+        (False, True): "With this spring that is the answer.",
+        (False,): "With this spring they do not, at any speed that was looked at.",
+        (True,): "With this spring they do at every speed that was looked at.",
+        (True, False): "With this spring it is the other way round.",
+    }
+    answer = answers.get(tuple(regimes.lost.tolist()), "The answer is stranger.")
+    return f"One would expect: above some speed. {answer}"
 
 
 def landing_data(note):
@@ -69,28 +98,23 @@ def landing_data(note):
     return note or "The spring is one that was measured, not the synthetic one of this project."
 
 
-def verdict(edges, lost, beyond=(), most=None):
-    """Where contact is kept and lost, and where going faster is safer.
-
-    Parameters
-    ----------
-    most : sequence of float, length m, optional
-        The largest compression in each range of `beyond`, over that at which it was measured.
-    """
-    words = [f"Contact is {_ranges(edges, lost)}."]
-    names = _names(edges)
-    wide = [edges[i + 1] > WIDE * edges[i] for i in range(len(lost))]
-    for i in range(1, len(lost)):
-        if not lost[i] and wide[i]:
+def verdict(regimes, beyond=()):
+    """Where contact is kept and lost, and where going faster is safer."""
+    words = [f"Contact is {ranges(regimes)}."]
+    name = dict(zip(regimes.edges, distinct(regimes.edges)))
+    for start, end in regimes.spans(lost=False):
+        if start == regimes.edges[0]:
+            continue  # slower was not looked at
+        if end > WIDE * start:
             words.append(
-                f"Going faster than {names[i]}{SPACE}m/s is *safer* than going a little slower."
+                f"Going faster than {name[start]}{SPACE}m/s is *safer* than going a little slower."
             )
-        elif not lost[i] and i < len(lost) - 1:
+        elif end < regimes.edges[-1]:
             words.append(
-                f"From {names[i]} to {names[i + 1]}{SPACE}m/s it is kept by a hair, in a range too "
-                "narrow to drive in."
+                f"From {name[start]} to {name[end]}{SPACE}m/s it is kept by a hair, in a range "
+                "too narrow to drive in."
             )
-    where = beyond_words(edges[0], edges[-1], beyond, most)
+    where = beyond_words(regimes, beyond)
     if where:
         words.append(
             f"All this holds **if the spring stays linear**: {where} it is compressed further "
@@ -99,105 +123,74 @@ def verdict(edges, lost, beyond=(), most=None):
     return " ".join(words)
 
 
-def crossings(edges, lost):
+def crossings(regimes):
     """How often the margin crosses zero, and whether going faster ever makes a robot safer."""
-    low, high = (f"{v:g}" for v in (edges[0], edges[-1]))
-    crossed = len(lost) - 1
+    crossed = len(regimes.critical)
+    looked = "from {:g} to {:g}".format(*regimes.edges[[0, -1]]) + f"{SPACE}m/s"
+    if not crossed:
+        side = "below" if regimes.lost[0] else "above"
+        return f"With this spring the margin does not cross zero at all {looked}: it stays {side}."
     times = {1: "once", 2: "twice"}.get(crossed) or count(crossed, "time")
-    if len(lost) == 1:
-        side = "below" if lost[0] else "above"
-        return (
-            f"With this spring the margin does not cross zero at all from {low} to "
-            f"{high}{SPACE}m/s: it stays {side}."
-        )
-    names = _names(edges)
-    upward = [names[i] for i in range(1, len(lost)) if not lost[i]]
+    words = f"With this spring the margin crosses zero {times} {looked}, and"
+    upward = [
+        name
+        for name, lost in zip(distinct(regimes.edges)[1:-1], regimes.lost[1:], strict=True)
+        if not lost
+    ]
     if not upward:
-        return (
-            f"With this spring the margin crosses zero {times} from {low} to {high}{SPACE}m/s, "
-            "and only downwards."
-        )
+        return f"{words} only downwards."
     return (
-        f"With this spring the margin crosses zero {times} from {low} to {high}{SPACE}m/s, and "
-        f"upwards at {join(upward)}{SPACE}m/s: a little above, the robot is safer than a little "
-        "below."
+        f"{words} upwards at {join(upward)}{SPACE}m/s: a little above, the robot is safer than a "
+        "little below."
     )
 
 
-def _names(edges):
-    """Speeds with so many digits, three or more, that neighbours can be told apart."""
-    edges = np.asarray(edges, dtype=float)
-    gaps = np.diff(edges) / edges[1:]
-    nearest = np.minimum(np.append(gaps, 1), np.insert(gaps, 0, 1))
-    digits = np.maximum(3, 1 + np.ceil(-np.log10(nearest)).astype(int))
-    return [number(v, d) for v, d in zip(edges, digits)]
+def beyond_words(regimes, beyond):
+    """Where in the range looked at a spring is compressed further than measured, and by how much.
 
-
-def _ranges(edges, lost):
-    names = _names(edges)
-    if len(lost) == 1:
-        low, high = (f"{v:g}" for v in edges)
-        return f"{'lost' if lost[0] else 'kept'} at every speed from {low} to {high}{SPACE}m/s"
-    words = []
-    for i, gone in enumerate(lost):
-        if i == 0:
-            where = f"up to {names[1]}{SPACE}m/s"
-        elif i == len(lost) - 1:
-            where = "from there on"
-        else:
-            where = f"from {names[i]} to {names[i + 1]}{SPACE}m/s"
-        words.append(f"{'lost' if gone else 'kept'} {where}")
-    return join(words)
-
-
-def beyond_words(low, high, beyond, most=None):
-    """Where in [low, high], m/s, a spring is compressed further than measured, or "".
-
-    With `most`, as in `verdict`, also by how much.
+    Empty if nowhere.
     """
-    most = [None] * len(beyond) if most is None else most
+    low, high = regimes.edges[[0, -1]]
     told = []
-    for (a, b), size in zip(beyond, most, strict=True):
-        if b <= low or a >= high:
+    for found in beyond:
+        if found.high <= low or found.low >= high:
             continue
-        if told and a < APART * told[-1][1]:
-            start, _, before = told.pop()
-            told.append((start, b, size and max(before, size)))
-        else:
-            told.append((a, b, size))
-    return join([_where(low, high, a, b) + _further(size) for a, b, size in told], none="")
+        if told and found.low < APART * told[-1].high:
+            before = told.pop()
+            times = max(before.times, found.times)
+            found = found._replace(low=before.low, times=times)
+        told.append(found)
+    return join([_where(found, low, high) + _further(found.times) for found in told], none="")
 
 
-def _where(low, high, a, b):
-    """The part of [low, high] that lies between a and b, in words."""
-    if a <= low and b >= high:
+def _where(found, low, high):
+    """The part of [low, high], m/s, that lies in a range, in words."""
+    if found.low <= low and found.high >= high:
         return f"at every speed from {low:g} to {high:g}{SPACE}m/s"
-    if a <= low:
-        return f"below {number(b)}{SPACE}m/s"
-    if b >= high:
-        return f"above {number(a)}{SPACE}m/s"
-    return f"from {number(a)} to {number(b)}{SPACE}m/s"
+    if found.low <= low:
+        return f"below {number(found.high)}{SPACE}m/s"
+    if found.high >= high:
+        return f"above {number(found.low)}{SPACE}m/s"
+    return f"from {number(found.low)} to {number(found.high)}{SPACE}m/s"
 
 
-def _further(size):
+def _further(times):
     """By how much a compression exceeds the measured ones, from their ratio."""
-    if size is None:
-        return ""
-    if size < 1.5:
-        return f" (by up to {percent(size - 1)})"
-    return f" (up to {number(size, 2)} times as far)"
+    if times < 1.5:
+        return f" (by up to {percent(times - 1)})"
+    return f" (up to {number(times, 2)} times as far)"
 
 
-def margin_caption(edges, lost, beyond, asked=()):
+def margin_caption(regimes, beyond, asked=()):
     """Caption of the least forces against speed."""
-    critical = edges[1:-1]
     text = "The exact least force of each wheel against speed."
-    if any(lost):
+    if regimes.lost.any():
         text += " Where either is negative (marked *lost*) a wheel leaves the ground."
-    if len(critical):
-        text += " Diamonds: the critical speeds."
+    if len(regimes.critical):
+        one = len(regimes.critical) == 1
+        text += " Diamond: the critical speed." if one else " Diamonds: the critical speeds."
     if len(asked):
-        text += f" Circles: the {count(len(asked), 'speed')} of the problem set."
+        text += f" {_circles(asked)}: the {count(len(asked), 'speed')} of the problem set."
     if len(beyond):
         text += (
             r" Hatched: a spring is compressed beyond $\delta_{\max}$, the largest displacement at "
@@ -205,12 +198,16 @@ def margin_caption(edges, lost, beyond, asked=()):
         )
     alt = (
         "Least normal force of the rear and the front wheel against speed on a logarithmic axis. "
-        f"Contact is {_ranges(edges, lost)}."
+        f"Contact is {ranges(regimes)}."
     )
-    where = beyond_words(edges[0], edges[-1], beyond)
+    where = beyond_words(regimes, beyond)
     if where:
-        alt += f" Hatched {where}, where a spring is compressed further than it was measured."
+        alt += f" Hatched {where}: there a spring is compressed further than it was measured."
     return Caption(text, alt)
+
+
+def _circles(asked):
+    return "Circle" if len(asked) == 1 else "Circles"
 
 
 def balance_table(critical, balances):
@@ -225,18 +222,18 @@ def balance_table(critical, balances):
     if not len(critical):
         return "There is no critical speed in the range, and so no balance of this kind."
     rows = []
-    for speed, name in zip(balances, _names(critical)):
+    for parts, name in zip(balances, distinct(critical), strict=True):
         rows.append(
             {
                 "critical speed (m/s)": name,
-                "wheel": WHEEL[speed.wheel],
-                "spring (N)": fixed(speed.spring, 2),
-                "damper (N)": fixed(speed.damper, 2),
-                "what happens": "the damper pulls" if _pulls(speed) else "the body is thrown",
+                "wheel": WHEEL[parts.wheel],
+                "spring (N)": fixed(parts.spring, 2),
+                "damper (N)": fixed(parts.damper, 2),
+                "what happens": "the damper pulls" if parts.pulled else "the body is thrown",
             }
         )
-    pulled = [v for v, parts in zip(critical, balances) if _pulls(parts)]
-    thrown = [v for v, parts in zip(critical, balances) if not _pulls(parts)]
+    pulled = [v for v, parts in zip(critical, balances) if parts.pulled]
+    thrown = [v for v, parts in zip(critical, balances) if not parts.pulled]
     words = []
     if thrown:
         words.append(
@@ -251,13 +248,47 @@ def balance_table(critical, balances):
     return "\n\n".join([table(rows), " ".join(words)])
 
 
-def _pulls(balance):
-    """Whether a compressed spring is overcome by the damper: a newton is a seventh of the load."""
-    return balance.spring > 1.0
+def stronger_dampers(before, after, still):
+    """What dampers twice as strong do, beside what the body that does not move says of them.
+
+    Parameters
+    ----------
+    before, after : Regimes
+        With the robot's own dampers, and with twice as strong ones.
+    still : pair of float
+        Speeds, m/s, at which a wheel is pulled off under a body that does not move, before, after.
+    """
+    own, left = _window(before), _window(after)
+    if own is None:
+        return f"With dampers twice as strong contact is {ranges(after)}."
+    low, high = map(number, own)
+    safer = f"in which faster is safer, from {low} to {high}{SPACE}m/s,"
+    if left is None:
+        return (
+            "The robot's own body does move meanwhile, and what is left of the range "
+            f"{safer} is nothing: with dampers twice as strong contact is {ranges(after)}."
+        )
+    becomes = "shrinks" if left[1] / left[0] < own[1] / own[0] else "changes"
+    return (
+        "The robot's own body does move meanwhile. Its last critical speed goes from "
+        f"{high} to {number(left[1])}{SPACE}m/s, by a factor of {number(own[1] / left[1], 2)} "
+        f"where the body held still has {number(still[0] / still[1], 2)}, and the range {safer} "
+        f"{becomes} to that from {number(left[0])} to {number(left[1])}{SPACE}m/s."
+    )
+
+
+def _window(regimes):
+    """The last range in which contact is kept, if it is lost before and after; else None."""
+    spans = [
+        span
+        for span in regimes.spans(lost=False)
+        if span[0] > regimes.edges[0] and span[1] < regimes.edges[-1]
+    ]
+    return spans[-1] if spans else None
 
 
 def afterwards(changed, speeds, extra):
-    """What happens after X = 1.25 m.
+    """What happens after the way of the problem set.
 
     Parameters
     ----------
@@ -268,17 +299,18 @@ def afterwards(changed, speeds, extra):
     extra : float
         How much longer the runs were, s.
     """
+    end = f"X = {DISTANCE:g}{SPACE}m"
     looked = (
         f"continued by {extra:g}{SPACE}s, at {count(len(speeds), 'speed')} from "
         f"{speeds[0]:.3g} to {speeds[-1]:.3g}{SPACE}m/s"
     )
     if not len(changed):
         return (
-            f"Does it matter that the runs end at X = 1.25 m? No: {looked}, no verdict changes. "
+            f"Does it matter that the runs end at {end}? No: {looked}, no verdict changes. "
             "What is going to happen happens on the way."
         )
     return (
-        f"Does it matter that the runs end at X = 1.25 m? **Yes:** {looked}, the verdict turns "
+        f"Does it matter that the runs end at {end}? **Yes:** {looked}, the verdict turns "
         f"from kept to lost at {_few(changed)}. There contact is lost in the swing "
         "that the bump leaves behind, beyond the end of the asked runs."
     )
@@ -315,11 +347,13 @@ def _critical_row(critical):
     speed, low, high = critical.speed, critical.low, critical.high
     relative = (high - low) / high
     digits = int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
-    known = speed is not None and critical.everywhere
+    half = "–"
+    if speed is not None and critical.everywhere:
+        half = percent((high - low) / 2 / speed) if high > low else "0"
     return {
         "critical speed (m/s)": "–" if speed is None else number(speed, digits),
         "95 % interval (m/s)": f"{number(low, digits)} to {number(high, digits)}",
-        "relative half-width": percent((high - low) / 2 / speed) if known else "–",
+        "relative half-width": half,
         "note": existence(critical) or "–",
     }
 
@@ -340,56 +374,53 @@ def other_readings(by_stiffness):
     if not asked:
         return "By none of the readings is there a critical speed in the range."
     words, outside = [], []
-    for own, *moved in zip(asked, *others):
+    for own, *moved in zip(asked, *others, strict=True):
         digits = speed_digits(own.low, own.high)
         name = number(own.speed, digits)
-        words.append(f"{name} becomes {join([number(c.speed, digits) for c in moved], 'or')}")
+        new = list(dict.fromkeys(number(c.speed, digits) for c in moved))
+        becomes = "stays as it is" if new == [name] else f"becomes {join(new, 'or')}{SPACE}m/s"
+        words.append(f"{name}{SPACE}m/s {becomes}")
         if not all(own.low <= c.speed <= own.high for c in moved):
             outside.append(name)
-    where = "each of them inside the interval that belongs to the asked stiffness"
+    each = "each of them" if len(asked) > 1 else "which is"
+    where = f"{each} inside the interval that belongs to the asked stiffness"
     if outside:
         where = (
-            f"and what becomes of {join(outside)} lies **outside** the asked stiffness's interval"
+            f"and what becomes of {join(outside)}{SPACE}m/s lies **outside** the asked "
+            "stiffness's interval"
         )
-    return f"By {names}, {join(words)}{SPACE}m/s, {where}."
+    return f"By {names}, {join(words)}, {where}."
 
 
-def confidence_table(margins, ratios, flips, lose):
-    """For each asked speed: margin, use of the spring, where the verdict flips, confidence.
+def confidence_table(asked):
+    """For each `Asked` speed: margin, use of the spring, where the verdict flips, confidence.
 
-    Parameters
-    ----------
-    margins, ratios : dict of float to float
-        For each speed, m/s: the margin, N, and the largest compression of a spring before a loss
-        over that at which it was measured.
-    flips : dict of float to sequence of float
-        Stiffnesses at which the verdict turns, N/m.
-    lose : dict of str to dict of float to float
-        For each stiffness by name the confidence that contact is lost, 0 to 1.
+    After a loss the ground of the linear model pulls: such a margin is a sign and no quantity.
     """
     rows = []
-    for v in margins:
-        mark = "*" if ratios[v] > 1 else ""
+    for speed in asked:
+        mark = "*" if speed.stretch > 1 else ""
         rows.append(
             {
-                "v (m/s)": f"{v:g}",
-                "margin (N)": fixed(margins[v], 2) + mark,
-                r"spring, of $\delta_{\max}$": fixed(ratios[v], 2),
-                "verdict flips at k (N/m)": join([number(k, 4) for k in flips[v]]),
-                **{f"lost, by the {name}": confidence(p[v]) + mark for name, p in lose.items()},
+                "v (m/s)": f"{speed.v:g}",
+                "margin (N)": ("lost" if is_lost(speed.margin) else fixed(speed.margin, 2)) + mark,
+                r"spring, of $\delta_{\max}$": fixed(speed.stretch, 2),
+                "verdict flips at k (N/m)": join([number(k, 4) for k in speed.flips]),
+                **{f"lost, by the {name}": confidence(p) + mark for name, p in speed.lost.items()},
             }
         )
     return table(rows)
 
 
-def confidence_note(ratios, asked_stiffness, names):
-    """On which stiffness, and on which spring, the table rests."""
+def confidence_note(asked, stiffness):
+    """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
         "The margins, and where the verdict flips, are those of the asked stiffness, the "
-        f"parabola's slope at zero, {quantity(asked_stiffness, 'N/m', 4)}. The confidence that "
-        f"contact is lost is given for each reading of the data by itself: the {join(names)}."
+        f"parabola's slope at zero, {quantity(stiffness, 'N/m', 4)}. The confidence that "
+        f"contact is lost is given for each reading of the data by itself: the "
+        f"{join(asked[0].lost)}."
     )
-    beyond = [v for v, ratio in ratios.items() if ratio > 1]
+    beyond = [speed.v for speed in asked if speed.stretch > 1]
     if beyond:
         words += (
             f" An asterisk, at {speed_list(beyond)}: **if the spring stays linear** beyond "
@@ -416,8 +447,8 @@ def map_caption(stiffness, k, asked, hatched):
     low, high = stiffness.interval()
     text = (
         "The margin over speed and stiffness. On the black line the verdict turns. Dashed, with "
-        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; circles: the "
-        f"{count(len(asked), 'asked speed')}."
+        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; "
+        f"{_circles(asked).lower()}: the {count(len(asked), 'asked speed')}."
     )
     alt = (
         f"Map of the margin over speed and stiffness, from {number(k[0])} to "
@@ -457,7 +488,7 @@ def strongest(critical, percent):
     if not len(critical):
         return "Without a critical speed there is nothing that could answer."
     most = [max(percent, key=lambda name: abs(percent[name][i])) for i in range(len(critical))]
-    names = _names(critical)
+    names = distinct(critical)
     which = "The critical speed answers" if len(critical) == 1 else "The critical speeds answer"
     words = join(
         f"{name} at {v}{SPACE}m/s ({fixed(percent[name][i], 2)}{SPACE}% per 1{SPACE}%)"
@@ -466,13 +497,13 @@ def strongest(critical, percent):
     return f"{which} most strongly to {words}."
 
 
-def travel_caption(edges, beyond, delta_max):
-    """Caption of the largest compression and pitch, over speeds in [edges[0], edges[-1]]."""
+def travel_caption(regimes, beyond, delta_max):
+    """Caption of the largest compression and pitch over the speeds looked at."""
     text = (
         "Largest compression of a spring (left) and largest pitch (right) while both wheels press "
         "on the ground. Dashed: the largest displacement at which the spring was measured."
     )
-    where = beyond_words(edges[0], edges[-1], beyond)
+    where = beyond_words(regimes, beyond)
     above = f"It lies above the line {where}." if where else "It stays below the line."
     alt = (
         "Left: largest spring compression against speed with a dashed line at "
@@ -482,22 +513,21 @@ def travel_caption(edges, beyond, delta_max):
     return Caption(text, alt)
 
 
-def doubt(edges, beyond, ratios, at_rest, delta_max, tilt):
+def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
     """Where the verdicts rest on a spring that was never measured, and how far the body tilts.
 
     Parameters
     ----------
-    ratios : dict of float to float
-        Largest compression at some speeds, m/s, over `delta_max`.
+    asked : sequence of Asked
     at_rest : float
-        The same of the robot that stands still.
+        Compression of the springs at rest over `delta_max`.
     delta_max : float
         Largest displacement at which the spring was measured, m.
     tilt : float
         Largest pitch while both wheels press, rad.
     """
     limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
-    where = beyond_words(edges[0], edges[-1], beyond)
+    where = beyond_words(regimes, beyond)
     words = []
     if at_rest > 1:
         words.append(
@@ -507,18 +537,19 @@ def doubt(edges, beyond, ratios, at_rest, delta_max, tilt):
         )
     elif where:
         words.append(
-            f"A spring is compressed beyond {limit}, before or without a loss of contact, {where}. "
+            f"While both wheels still press, a spring is compressed beyond {limit} {where}. "
             "There the verdicts are those of a spring that stays linear further than anyone has "
             "measured."
         )
     else:
         words.append(f"No spring is compressed beyond {limit}, as far as it was measured.")
-    each = join(f"{fixed(r, 2)} at {v:g}{SPACE}m/s" for v, r in ratios.items())
-    words.append(rf"In units of $\delta_{{\max}}$ the largest compressions are {each}.")
+    each = join(f"{fixed(speed.stretch, 2)} at {speed.v:g}{SPACE}m/s" for speed in asked)
+    largest = "largest compression is" if len(asked) == 1 else "largest compressions are"
+    words.append(rf"In units of $\delta_{{\max}}$ the {largest} {each}.")
     words.append(
         f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
-        rf"where $\sin\theta$ and $\theta$ differ by {percent(tilt**2 / 6, 1)}; "
-        "[in the air](../notebooks/06-flight.ipynb) it is another matter."
+        f"where {small_angle(tilt)}; "
+        "[in the air](../notebooks/07-flight.ipynb) it is another matter."
     )
     return " ".join(words)
 
@@ -528,24 +559,23 @@ def _up(x):
     return fixed(np.ceil(10 * x) / 10, 1)
 
 
-def lesson(lost, balances):
+def lesson(regimes, balances):
     """What the ranges teach, in one line; `balances` as in `balance_table`."""
-    pulls = any(map(_pulls, balances))
-    if list(map(bool, lost)) == [False, True]:
+    if regimes.lost.tolist() == [False, True]:
         return (
             "With this spring the wheels do fly above some speed. That they do was not to be "
             "known beforehand: resonance throws the body, a short bump spares it, a fast damper "
             "pulls at it, and only the numbers tell what comes of the three."
         )
-    if len(lost) == 1:
+    if not len(regimes.critical):
         return "With this spring one verdict holds at all speeds. Only the numbers could tell."
     words = (
         "The wheels do not simply fly above some speed. Resonance throws the body, a short bump "
         "spares it"
     )
-    if pulls:
+    if any(balance.pulled for balance in balances):
         return (
-            f"{words}, and the damper, meant to hold the robot down, is what loses the ground at "
-            "the highest speeds."
+            f"{words}, and the damper, meant to hold the robot down, is what pulls a wheel off the "
+            "ground at the highest speeds."
         )
     return f"{words}."

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from scipy import stats
 
+from suspension.report.data import caution
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -51,15 +51,14 @@ def coefficients(fit):
         {
             "coefficient": rf"$\beta_{j}$",
             "estimate (N)": fixed(fit.beta[j], 4),
-            "standard error (N)": fixed(fit.results.bse.iloc[j], 4),
+            "standard error (N)": fixed(fit.errors[j], 4),
         }
         for j in range(3)
     ]
-    free = int(fit.results.df_resid)
     return (
         f"{table(rows)}\n\nThe residual standard deviation is "
-        f"{quantity(fit.results.mse_resid**0.5, 'N', 2)}, with "
-        f"{count(free, 'degree of freedom', 'degrees of freedom')}."
+        f"{quantity(fit.scatter, 'N', 2)}, with "
+        f"{count(fit.free, 'degree of freedom', 'degrees of freedom')}."
     )
 
 
@@ -74,7 +73,7 @@ def fit_figure(fit):
         f"95{SPACE}% confidence band of the mean force."
     )
     alt = (
-        f"Spring force against relative displacement: {count(int(fit.results.nobs), 'reading')} "
+        f"Spring force against relative displacement: {count(len(fit.x), 'reading')} "
         f"and the fitted curve, {shape}, with the confidence band of the mean force."
     )
     return Caption(caption, alt)
@@ -90,7 +89,13 @@ def stiffness(fit):
     return (
         rf"$k_1 = \hat\beta_1/\delta_{{\max}} = {_plain(fit.stiffness, 1)}\ \text{{N/m}}$, with a "
         f"95{SPACE}% confidence interval of {_stiffness_interval(fit)} for this coefficient alone."
+        f"{_and(caution(fit))}"
     )
+
+
+def _and(sentence):
+    """One more sentence, if there is one."""
+    return f" {sentence}" if sentence else ""
 
 
 def _plain(x, decimals):
@@ -126,6 +131,7 @@ def joint_intervals(fit):
     return (
         f"The 95{SPACE}% joint confidence intervals are {interval(*ends[0], 'N')} for "
         rf"$\beta_0^\text{{true}}$ and {interval(*ends[2], 'N')} for $\beta_2^\text{{true}}$."
+        f"{_and(caution(fit, 'The intervals'))}"
     )
 
 
@@ -164,12 +170,14 @@ def linearity(fit):
         return (
             f"{where}, and {tested}. The data give no reason to keep a preload or a curvature: a "
             r"standard linear spring, $F = k\delta$, is justified."
+            f"{_and(caution(fit, 'The F test'))}"
         )
     but = "but" if not away else "and"
     return (
         f"{where}, {but} {tested}. At the 95{SPACE}% level the data contradict a standard linear "
         "spring without preload. What follows uses the slope at zero all the same, as the problem "
         f"asks; [which stiffness the robot feels]({FEELS}) is another question."
+        f"{_and(caution(fit, 'The F test'))}"
     )
 
 
@@ -179,7 +187,7 @@ def _statistic(test):
 
 def residuals_figure(fit):
     """Caption of the residuals."""
-    largest = quantity(np.abs(fit.results.resid).max(), "N", 2)
+    largest = quantity(np.abs(fit.residuals).max(), "N", 2)
     caption = (
         "Residuals against displacement, and ordered against what normal errors would give. The "
         f"largest is {largest}."
@@ -194,25 +202,52 @@ def residuals_figure(fit):
 
 def residuals(fit):
     """What a cubic term and the neighbouring residuals say about the model."""
-    points = int(fit.results.nobs)
+    points, places = len(fit.x), len(np.unique(fit.x))
     if points < 5:
         return f"With {count(points, 'reading')} there is nothing left to test the model with."
-    p = fit.cubic_pvalue
-    if not math.isfinite(p):
+    if fit.exact:
         return "The parabola goes through every reading: the residuals say nothing."
-    verdict = "insignificant" if p > 0.05 else "**significant**"
-    return f"A cubic term would be {verdict} ({pvalue(p)}). {_neighbours(fit, points)}"
+    p = fit.cubic_pvalue
+    if p is None:
+        cubic = (
+            f"The readings stand at {count(places, 'displacement')}, and through as many points "
+            "there is always a parabola: a cubic term cannot be tried."
+            if places < 4
+            else "The readings stand too near to each other for a cubic term to be tried."
+        )
+    else:
+        verdict = "insignificant" if p > 0.05 else "**significant**"
+        cubic = f"A cubic term would be {verdict} ({pvalue(p)})."
+    return f"{cubic} {_neighbours(fit.neighbours)}"
 
 
-def _neighbours(fit, points):
-    correlation = fit.results.resid.autocorr()
-    chance = stats.norm.ppf(0.975) / math.sqrt(points)
-    if not math.isfinite(correlation):
-        return "The residuals are too small to correlate."
-    than = "no more than" if abs(correlation) <= chance else "**more** than"
+def _neighbours(neighbours):
+    """How residuals go together in the order of the file, and what follows for the intervals."""
+    correlation, low, high, widening = neighbours
+    found = (
+        f"Neighbouring residuals correlate with {fixed(correlation, 2)}, "
+        f"{'**outside**' if neighbours.suspicious else 'inside'} the {fixed(low, 2)} to "
+        f"{fixed(high, 2)} that independent errors give in 95 of 100 experiments."
+    )
+    if not neighbours.suspicious:
+        return found
+    found += " The intervals and the F test suppose such errors, so they cannot be relied on."
+    if correlation < low:
+        return (
+            f"{found} Signs take turns, as they do where readings of two kinds alternate, on "
+            "loading and on unloading say: fit each kind by itself."
+        )
+    wander = ""
+    if widening > 1.05:
+        wander = (
+            " If the errors wander, so that the correlation fades to this part from each reading "
+            f"to the next, the interval of the stiffness must be {number(widening, 2)} times as "
+            "wide."
+        )
     return (
-        f"Neighbouring residuals correlate with {fixed(correlation, 2)}, {than} the "
-        f"±{fixed(chance, 2)} that chance alone gives."
+        f"{found} Residuals of one sign stand together.{wander} If the spring was first loaded and "
+        "then unloaded, the difference between the two ways is no chance: fit each by itself. If "
+        "the force follows another curve than a parabola, no interval tells by how much."
     )
 
 
@@ -268,15 +303,24 @@ def _boxes(names):
 
 def summary(fit):
     """What to remember of Part I."""
-    low, high = fit.stiffness_interval()
     linear = "compatible" if fit.linearity().linear else "**not** compatible"
-    known = percent((high - low) / 2 / fit.stiffness)
     points = [
-        f"The stiffness is {quantity(fit.stiffness, 'N/m')}, known to about ±{known}.",
+        f"The stiffness is {quantity(fit.stiffness, 'N/m')}{_known(fit)}",
         f"A linear spring is {linear} with the data.",
         "An interval is only as good as the statement it belongs to: "
         f"{join(['one coefficient', 'two', 'all'], 'or')}.",
         "This uncertainty travels on: it decides how well "
-        "[the critical speeds](../notebooks/05-critical-speeds.ipynb) are known.",
+        "[the critical speeds](../notebooks/06-critical-speeds.ipynb) are known.",
     ]
     return "\n".join(f"- {point}" for point in points)
+
+
+def _known(fit):
+    """How well the stiffness is known, and whether the residuals let one believe it."""
+    if fit.exact:
+        return ". The readings lie on a curve, so they do not say how well it is known."
+    low, high = fit.stiffness_interval()
+    part = f"±{percent((high - low) / 2 / fit.stiffness)}"
+    if fit.neighbours.suspicious:
+        return f", with an interval of {part}. {caution(fit)}"
+    return f", known to about {part}."

@@ -1,6 +1,7 @@
 """Rows of the report's tables, a dict each, and a Markdown table made from them."""
 
 import math
+from dataclasses import astuple
 
 import numpy as np
 
@@ -12,6 +13,7 @@ __all__ = [
     "matrix_rows",
     "mode_name",
     "mode_rows",
+    "parameter_rows",
     "stability_rows",
     "table",
     "verdict",
@@ -76,6 +78,30 @@ def _least(run, wheel):
     return f"{fixed(N.min(), 2)} ({when})"
 
 
+def parameter_rows(robot, bump):
+    """The parameters of a robot (Table 1, and its springs) and of a bump, with units."""
+    quantities = [
+        ("gravity", "$g$", (robot.g,), "m/s²"),
+        ("mass", "$m$", (robot.m,), "kg"),
+        ("moment of inertia", "$I_{zz}$", (robot.Izz,), "kg m²"),
+        ("distances to the wheels", "$L_1$, $L_2$", (robot.L1, robot.L2), "m"),
+        ("damping", "$c_1$, $c_2$", robot.c, "N s/m"),
+        ("stiffness", "$k_1$, $k_2$", robot.k, "N/m"),
+        ("bump: height, width, place", r"$h_0$, $\sigma$, $x_0$", astuple(bump), "m"),
+    ]
+    return [
+        {"parameter": name, "symbol": symbol, "value": ", ".join(map(_given, x)), "unit": unit}
+        for name, symbol, x, unit in quantities
+    ]
+
+
+def _given(x):
+    """A number as it was given, or in four digits if that would need more than six."""
+    if x == float(f"{x:.6g}") and (x == 0 or 1e-4 <= abs(x) < 1e6):
+        return f"{x:.6g}".replace("-", "−")
+    return number(x, 4)
+
+
 def matrix_rows(A):
     """The entries of a matrix, each under its row and column."""
     return [
@@ -89,12 +115,8 @@ def _entry(a):
 
 
 def mode_name(robot, k):
-    """Whether mode `k`, counted from 0, is more of a heave or of a pitch.
-
-    The two are compared at the wheel that is further from the centre of mass.
-    """
-    heave, _, pitch, _ = np.abs(robot.eigenvectors[:, k])
-    return "heave" if heave > max(robot.L1, robot.L2) * pitch else "pitch"
+    """Whether mode `k`, counted from 0, is more of a heave or of a pitch."""
+    return "heave" if robot.heave_share[k] > 0.5 else "pitch"
 
 
 def mode_rows(robot):

@@ -22,17 +22,25 @@ UNITS = {
     "L2": "m",
     "c1": "N s/m",
     "c2": "N s/m",
-    "k1": "N/m, from Question 1",
+    "k1": "N/m",
     "k2": "N/m",
+    "height": "m",
+    "sigma": "m",
+    "x0": "m",
+    "distance": "m",
+    "w0": "[m, m/s, rad, rad/s]",
+    "tfinal": "s",
+    "dts": "s",
+    "two_dts": "s",
 }
 
 
 def say(*parts, name=None):
-    """Show Markdown paragraphs that a computation has filled in.
+    """Show Markdown paragraphs that a computation has filled in; an empty one is left out.
 
     With a `name`, other pages of the book can quote them.
     """
-    display(Markdown("\n\n".join(parts)), metadata=_named(name) if name else {})
+    display(Markdown("\n\n".join(filter(None, parts))), metadata=_named(name) if name else {})
 
 
 def _named(name):
@@ -86,15 +94,22 @@ def listing(imports, parameters, *functions):
     imports : str
         Its first lines.
     parameters : dict
-        Numbers that the functions use by name. Twelve digits of each: machines differ in the last.
+        Numbers, or tuples of them, that the functions use by name. Twelve digits of each: machines
+        differ in the last.
     *functions : callable
         Their code follows, without docstrings; the last one is called, without arguments.
     """
-    numbers = [f"{name} = {value:.12g}" + _unit(name) for name, value in parameters.items()]
+    numbers = [f"{name} = {_value(value)}{_unit(name)}" for name, value in parameters.items()]
     code = [_source(function) for function in functions]
     call = f"{functions[-1].__name__}()"
     parts = [imports.strip() + "\n\n" + "\n".join(numbers), *code, call]
     return "```python\n" + "\n\n\n".join(parts) + "\n```"
+
+
+def _value(value):
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_value, value))}{',' * (len(value) == 1)})"
+    return f"{value:.12g}"
 
 
 def _unit(name):

@@ -19,7 +19,7 @@ def dt_list(dts, last="and"):
     return join([f"{dt:g}" for dt in dts], last) + SPACE + "s"
 
 
-def diagram_caption(question, scheme, region, eigenvalues, dts):
+def diagram_caption(question, scheme, eigenvalues, dts):
     """Caption of a stability diagram: what the region is, and where the points lie.
 
     Parameters
@@ -27,8 +27,6 @@ def diagram_caption(question, scheme, region, eigenvalues, dts):
     question : str
         ``"4(i)"``.
     scheme : Scheme
-    region : str
-        What is shaded, ``"left half-plane"``.
     eigenvalues : array_like, shape (n,)
         1/s.
     dts : sequence of float
@@ -36,11 +34,15 @@ def diagram_caption(question, scheme, region, eigenvalues, dts):
     """
     places = _places(scheme, eigenvalues, dts)
     n = NUMBERS[len(eigenvalues)]
+    region, border = "left half-plane", ""
+    if np.isfinite(scheme.max_stable_dt([-1, 1j])):
+        region = "region"
+        border = r" The border was found by following $R(z) = e^{i\varphi}$ from $z = 0$."
     text = (
         f"**Question {question}.** {scheme.name} is absolutely stable in the shaded {region}. Of "
         rf"the {n} points $\lambda_k\Delta t$ of each step, {places}. The inset enlarges the "
         f"surroundings of $z = 0$, where the {n} points of {min(dts):g}{SPACE}s lie; it is "
-        "stretched horizontally."
+        f"stretched horizontally.{border}"
     )
     alt = (
         f"Stability diagram of {scheme.name} with a shaded {region}. Of the {n} points lambda "

@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part IV: runs compared with the closed form."""
+"""Sentences, tables and captions of Part V: runs compared with the closed form."""
 
 import numpy as np
 
@@ -175,7 +175,7 @@ def observed_orders(worst, promised):
 
 def seen_mode_caption(seen, dts, true):
     """Caption of the mode as the methods see it; arguments as in `figures.plot_seen_mode`."""
-    over = {name: _half_a_turn(z, dts) for name, z in seen.items()}
+    over = {name: accuracy.half_turn(z, dts) for name, z in seen.items()}
     passed = join(f"{name} at {number(1000 * dt)}{SPACE}ms" for name, dt in over.items() if dt)
     crossing = (
         "No method's frequency passes Nyquist's."
@@ -198,17 +198,6 @@ def seen_mode_caption(seen, dts, true):
     return Caption(text, alt)
 
 
-def _half_a_turn(seen, dts):
-    """The first step in which a mode turns by more than half a circle, s, or None."""
-    angle = seen.imag * np.asarray(dts)
-    after = int(np.argmax(angle > np.pi))
-    return (
-        np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1])
-        if after
-        else None
-    )
-
-
 def half_turn(seen, dts, true):
     """Where RK4 turns a mode over in every step, with its damping and without.
 
@@ -217,7 +206,7 @@ def half_turn(seen, dts, true):
     seen, dts, true
         As in `figures.plot_seen_mode`, of RK4 alone.
     """
-    dt = _half_a_turn(seen, dts)
+    dt = accuracy.half_turn(seen, dts)
     if dt is None:
         return "In [the figure](#fig-damping) RK4 does not reach that line."
     undamped = np.sqrt(6) / true.imag
@@ -388,7 +377,7 @@ def missed_table(speeds, missed, shown=None, force=None):
         parts.append(
             f"The figure shows {speed_list([shown])}, where the force falls to "
             f"{number(force, 2)}{SPACE}N. [The exact "
-            "margin](../notebooks/05-critical-speeds.ipynb) does "
+            "margin](../notebooks/06-critical-speeds.ipynb) does "
             "not depend on where a method happens to stop."
         )
     return "\n\n".join(parts)

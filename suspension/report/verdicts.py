@@ -16,119 +16,174 @@ from suspension.report.words import (
 )
 
 __all__ = [
-    "change_words",
+    "contact",
     "forces_caption",
-    "forces_plot",
+    "forces_link",
     "later",
-    "lost_phrase",
     "lost_sentence",
-    "same_verdicts",
+    "same_at_half_the_step",
+    "same_by_another_scheme",
     "spring_sentence",
     "table_note",
     "verdict_table",
 ]
 
 FEELS = "../notebooks/01-regression.ipynb#which-stiffness-does-the-robot-feel"
+QUESTION_6 = "../notebooks/02-crank-nicolson.ipynb#question-6-over-the-bump"
 
 
-def lost_phrase(runs):
-    """At which of the tried speeds contact is lost, within a sentence.
-
-    Parameters
-    ----------
-    runs : sequence of Trajectory
-    """
-    speeds = [run.v for run in runs if run.loss]
-    if not speeds:
-        return f"contact is lost at none of the {count(len(runs), 'speed')}"
-    return f"contact is lost at v = {speed_list(speeds)}"
-
-
-def lost_sentence(runs):
-    """At which of the tried speeds contact is lost; arguments as in `lost_phrase`."""
-    lost = sum(run.loss is not None for run in runs)
-    phrase = "C" + lost_phrase(runs)[1:]
-    if lost == 0:
-        return f"{phrase}: both wheels press on the ground all the way."
-    if lost == len(runs):
-        return f"{phrase}, at every one of the {count(len(runs), 'speed')}."
-    return f"{phrase}, and at no other of the {count(len(runs), 'speed')}."
-
-
-def verdict_table(runs, compression):
-    """A row for each run.
+def contact(runs, compression, robot, fit):
+    """Answer 6(i): where contact is lost, the verdict table, and on what it rests.
 
     Parameters
     ----------
     runs : sequence of Trajectory
     compression : sequence of float
         Largest compression of a spring in each while both wheels press, over delta_max.
+    robot : Robot
+    fit : SpringFit
     """
+    parts = [
+        lost_sentence(runs),
+        verdict_table(runs, compression),
+        spring_sentence(runs, compression, robot, fit),
+        table_note(runs),
+    ]
+    return "\n\n".join(parts)
+
+
+def same_at_half_the_step(runs, halved, compression):
+    """Answer 6(iii): the same runs at half the step, and whether the conclusions change."""
+    change = "do not change" if _lost(runs) == _lost(halved) else "**change**"
+    return (
+        rf"At $\Delta t$ = {halved[0].dt:g} s {_lost_phrase(halved)}: the conclusions {change}. "
+        f"The least forces move by {_difference(runs, halved)}:\n\n"
+        f"{verdict_table(halved, compression)}"
+    )
+
+
+def same_by_another_scheme(runs, others, compression):
+    """Answer 10(i): where contact is lost, and whether Part II, `others`, says the same."""
+    agree = "agree" if _lost(runs) == _lost(others) else "do **not** agree"
+    after = " and of the forces “after” a loss" if any(_lost(runs)) else ""
+    parts = [
+        lost_sentence(runs),
+        verdict_table(runs, compression),
+        f"The verdicts {agree} with those of Part II; the least forces differ by "
+        f"{_difference(runs, others)}. What is said of the spring{after} in "
+        f"[Question 6]({QUESTION_6}) holds here as well.",
+    ]
+    return "\n\n".join(parts)
+
+
+def _lost(runs):
+    return [run.loss is not None for run in runs]
+
+
+def _difference(runs, others):
+    """By how much the wheels' least forces differ between two sets of runs."""
+    pairs = zip(runs, others, strict=True)
+    largest = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in pairs)
+    return f"at most {quantity(largest, 'N', 2)}"
+
+
+def _lost_phrase(runs):
+    speeds = [run.v for run in runs if run.loss]
+    if speeds:
+        return f"contact is lost at v = {speed_list(speeds)}"
+    if len(runs) == 1:
+        return f"contact is kept at v = {speed_list([runs[0].v])}"
+    return f"contact is lost at none of the {count(len(runs), 'speed')}"
+
+
+def lost_sentence(runs):
+    """At which of the tried speeds contact is lost; `runs` is a sequence of Trajectory."""
+    lost, tried = sum(_lost(runs)), count(len(runs), "speed")
+    if lost == 0:
+        rest = ": both wheels press on the ground all the way"
+    elif len(runs) == 1:
+        rest = ""
+    else:
+        rest = (
+            f", at every one of the {tried}"
+            if lost == len(runs)
+            else (f", and at no other of the {tried}")
+        )
+    return f"C{_lost_phrase(runs)[1:]}{rest}."
+
+
+def verdict_table(runs, compression):
+    """A row for each run; arguments as in `contact`."""
     return table([verdict(run, ratio) for run, ratio in zip(runs, compression, strict=True)])
 
 
 def table_note(runs):
-    """What the forces in a verdict table are, and by how much contact is kept."""
-    kept = [run for run in runs if run.loss is None]
-    sentences = []
-    if len(kept) < len(runs):
-        sentences.append(
+    """What the forces in a verdict table are."""
+    lost, note = _lost(runs), []
+    if any(lost):
+        note.append(
             "“After” is after the first loss, where the linear model lets the ground pull: such a "
             "number is no force, and how negative it is says nothing about the real robot."
         )
-    if kept:
-        margins = join(f"{fixed(run.N.min(), 2)}{SPACE}N at {speed_list([run.v])}" for run in kept)
-        sentences.append(
-            f"Where contact is kept the smaller of the two is the margin: {margins}. The further "
-            "it is from zero, the less a numerical error, another spring or a heavier load could "
-            "turn the verdict."
+    if not all(lost):
+        note.append(
+            "Where contact is kept the smaller of the two is the margin. The further it is from "
+            "zero, the less a numerical error, another spring or a heavier load could turn the "
+            "verdict."
         )
-    return " ".join(sentences)
+    return " ".join(note)
 
 
 def spring_sentence(runs, compression, robot, fit):
-    """On which spring the verdicts rest: its stiffness, and how far beyond the measured range.
-
-    Parameters
-    ----------
-    runs, compression
-        As in `verdict_table`.
-    robot : Robot
-    fit : SpringFit
-    """
-    rests = (
-        "All verdicts rest on the asked stiffness, the slope of the parabola at zero, "
-        f"$k$ = {quantity(robot.k1, 'N/m')} ([which stiffness the robot feels]({FEELS}))"
-    )
-    if not fit.linearity().linear:
-        rests += ", and on a linear spring, which the data contradict"
+    """On which springs the verdicts rest, and how far beyond the measured range; as `contact`."""
+    measured = robot.k1 == robot.k2 == float(fit.stiffness)
+    if measured:
+        rests = (
+            "All verdicts rest on the asked stiffness, the slope of the parabola at zero, "
+            f"$k$ = {quantity(robot.k1, 'N/m')} ([which stiffness the robot feels]({FEELS}))"
+        )
+        if not fit.linearity().linear:
+            rests += ", and on a linear spring, which the data contradict"
+    else:
+        rests = (
+            f"All verdicts rest on stiffnesses that were chosen, {stiffnesses(robot)}, not on that "
+            f"of Part I, {quantity(fit.stiffness, 'N/m')}"
+        )
     beyond = [(run.v, ratio) for run, ratio in zip(runs, compression) if ratio > 1]
+    reach = "it was measured" if measured else "the spring of Part I was measured"
     if not beyond:
         return (
             f"{rests}. Up to each verdict no spring is compressed further than "
-            r"$\delta_{\max}$, as far as it was measured."
+            rf"$\delta_{{\max}}$, as far as {reach}."
         )
     speeds = speed_list([v for v, _ in beyond])
     ratios = join(fixed(ratio, 2) for _, ratio in beyond)
     order = ", in this order" if len(beyond) > 1 else ""
     return (
-        f"{rests}. At {speeds} they hold **if the spring stays linear** beyond where it was "
-        f"measured: until the verdict is reached a spring is compressed to {ratios} times "
-        rf"$\delta_{{\max}}${order}.{_at_rest(robot, fit.delta_max)}"
+        f"{rests}. At {speeds} they hold **if the spring stays linear** beyond "
+        rf"$\delta_{{\max}}$, as far as {reach}: until the verdict is reached a spring is "
+        rf"compressed to {ratios} times $\delta_{{\max}}${order}.{_at_rest(robot, fit.delta_max)}"
     )
+
+
+def stiffnesses(robot, digits=3):
+    """The stiffnesses of a robot, in symbols and numbers."""
+    if robot.k1 == robot.k2:
+        return f"$k_1 = k_2$ = {quantity(robot.k1, 'N/m', digits)}"
+    first, second = (quantity(k, "N/m", digits) for k in robot.k)
+    return f"$k_1$ = {first} and $k_2$ = {second}"
 
 
 def _at_rest(robot, delta_max):
     """A sentence if the springs are compressed beyond `delta_max` even at rest, else nothing."""
-    heave, _, pitch, _ = robot.equilibrium
-    ratio = -(heave + robot.arms * pitch).min() / delta_max
+    ratio = -(robot.equilibrium[0] + robot.arms * robot.equilibrium[2]).min() / delta_max
     if ratio <= 1:
         return ""
     return f" Even at rest one is compressed to {fixed(ratio, 2)} times $\\delta_{{\\max}}$."
 
 
-def later(runs, longer):
-    """Whether the end of the runs, at X = 1.25 m, decided a verdict.
+def later(runs, longer, distance):
+    """Whether the end of the runs, at X = `distance` in m, decided a verdict.
 
     Parameters
     ----------
@@ -137,42 +192,38 @@ def later(runs, longer):
     """
     pairs = list(zip(runs, longer, strict=True))
     extra = quantity(min(more.T[-1] - run.T[-1] for run, more in pairs), "s", 2)
+    end = f"$X$ = {distance:g} m"
     kept = [(run, more) for run, more in pairs if run.loss is None]
     turned = [run.v for run, more in kept if more.loss]
     if not kept:
         return (
             "Contact is lost on the way at every speed, so nothing that comes after "
-            "$X$ = 1.25 m can change a verdict."
+            f"{end} can change a verdict."
         )
     if turned:
         return (
-            f"**The end of the run decides:** continued for another {extra} beyond $X$ = 1.25 m, "
+            f"**The end of the run decides:** continued for another {extra} beyond {end}, "
             f"contact is lost at {speed_list(turned)} as well."
         )
     deeper = [run.v for run, more in kept if more.N.min() < run.N.min() - 0.005]
-    margins = (
-        f", though the least force becomes smaller at {speed_list(deeper)}"
-        if deeper
-        else ", and no least force becomes smaller"
-    )
-    return f"After $X$ = 1.25 m no verdict changes: the runs were continued for {extra}{margins}."
+    margins = ", and no least force becomes smaller"
+    if deeper:
+        margins = f", though the least force becomes smaller at {speed_list(deeper)}"
+    return f"After {end} no verdict changes: the runs were continued for {extra}{margins}."
 
 
 def forces_caption(question, runs):
     """Caption of the normal forces, a panel for each run; `question` is ``"6(ii)"``."""
-    dts = join(dict.fromkeys(f"{run.dt:g}" for run in runs))
-    lost = [run for run in runs if run.loss]
+    lost = [run.v for run in runs if run.loss]
+    grey = "Both forces stay positive at every speed: contact is kept."
     if lost:
-        speeds = speed_list([run.v for run in lost])
         grey = (
-            f"After the first loss of contact (×, at {speeds}) the linear model lets the ground "
-            "pull; that part is greyed out."
+            f"After the first loss of contact (×, at {speed_list(lost)}) the linear model lets the "
+            "ground pull; that part is greyed out."
         )
-    else:
-        grey = "Both forces stay positive at every speed: contact is kept."
     text = (
         f"**Question {question}.** Normal forces by {runs[0].scheme.name}, "
-        rf"$\Delta t$ = {dts}{SPACE}s. {grey}"
+        rf"$\Delta t$ = {runs[0].dt:g}{SPACE}s. {grey}"
     )
     panels = " ".join(f"At {run.v:g} m/s {_panel(run)}." for run in runs)
     alt = (
@@ -189,19 +240,8 @@ def _panel(run):
     return f"the {wheel} wheel loses the ground at {seconds(run.loss.t, run.dt)} s, marked ×"
 
 
-def forces_plot(runs, page, name):
+def forces_link(runs, page, name):
     """Where the plots of the normal forces are: a page of ``notebooks/`` and a figure's label."""
     link = f"[the normal forces by {runs[0].scheme.name}](../notebooks/{page}.ipynb#{name})"
-    return f"{count(len(runs), 'plot').capitalize()}, one for each speed: {link}."
-
-
-def same_verdicts(runs, others):
-    """Whether contact is lost at the same speeds in two sets of runs."""
-    return all((a.loss is None) == (b.loss is None) for a, b in zip(runs, others, strict=True))
-
-
-def change_words(runs, others):
-    """By how much the wheels' least forces differ between two sets of runs."""
-    pairs = zip(runs, others, strict=True)
-    largest = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in pairs)
-    return f"at most {quantity(largest, 'N', 2)}"
+    each = ", one for each speed" if len(runs) > 1 else ""
+    return f"{count(len(runs), 'plot').capitalize()}{each}: {link}."

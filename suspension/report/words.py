@@ -8,10 +8,13 @@ import math
 from decimal import Decimal
 from typing import NamedTuple
 
+import numpy as np
+
 __all__ = [
     "Caption",
     "confidence",
     "count",
+    "distinct",
     "fixed",
     "interval",
     "join",
@@ -21,6 +24,7 @@ __all__ = [
     "quantity",
     "ranges",
     "seconds",
+    "small_angle",
     "speed_list",
 ]
 
@@ -106,6 +110,12 @@ def pvalue(p):
     return f"p{SPACE}={SPACE}{number(p, 2)}"
 
 
+def small_angle(theta):
+    """What the small-angle equations take for the same at a pitch `theta`, in rad."""
+    sine, cosine = percent(1 - np.sinc(theta / np.pi)), percent(1 - np.cos(theta))
+    return rf"$\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by {cosine}"
+
+
 def confidence(p):
     """A probability as a percentage that never claims certainty.
 
@@ -161,20 +171,39 @@ def speed_list(speeds, last="and", none="no speed"):
     return words + SPACE + "m/s" if len(speeds) else words
 
 
-def ranges(edges, lost):
-    """Ranges of speed in words, from their edges in m/s and whether contact is lost in each.
+def distinct(values):
+    """Numbers in order with so many digits, three or more, that neighbours can be told apart.
 
-    >>> ranges([0.1, 0.4, 30], [False, True])
+    >>> distinct([0.44494, 0.44596, 7.9457])
+    ['0.4449', '0.4460', '7.95']
+    """
+    values = np.asarray(values, dtype=float)
+    gaps = np.diff(values) / values[1:]
+    nearest = np.minimum(np.append(gaps, 1), np.insert(gaps, 0, 1))
+    digits = np.maximum(3, 1 + np.ceil(-np.log10(nearest)).astype(int))
+    return [number(v, d) for v, d in zip(values, digits)]
+
+
+def ranges(regimes):
+    """The ranges of speed of a `suspension.contact.Regimes` in words.
+
+    >>> from suspension.contact import Regimes
+    >>> ranges(Regimes([0.1, 0.4, 30], [False, True]))
     'kept up to 0.400\\xa0m/s and lost from there on'
     """
+    spans = [(*ends, gone) for gone in (False, True) for ends in regimes.spans(lost=gone)]
+    low, high = regimes.edges[[0, -1]]
+    names = distinct(regimes.edges)
+    name = dict(zip(regimes.edges, names))
     words = []
-    for i, gone in enumerate(lost):
-        where = f"from {number(edges[i])} to {number(edges[i + 1])}{SPACE}m/s"
-        if len(lost) == 1:
-            where = f"at every speed {where}"
-        elif i == 0:
-            where = f"up to {number(edges[1])}{SPACE}m/s"
-        elif i == len(lost) - 1:
+    for start, end, gone in sorted(spans):
+        if (start, end) == (low, high):
+            where = f"at every speed from {low:g} to {high:g}{SPACE}m/s"
+        elif start == low:
+            where = f"up to {name[end]}{SPACE}m/s"
+        elif end == high:
             where = "from there on"
+        else:
+            where = f"from {name[start]} to {name[end]}{SPACE}m/s"
         words.append(f"{'lost' if gone else 'kept'} {where}")
     return join(words)

@@ -1,6 +1,7 @@
 """What a page weighs, that nothing moves when it loads, and that its security policy holds."""
 
 import gzip
+import re
 from contextlib import contextmanager
 from functools import partial
 from http.server import ThreadingHTTPServer
@@ -28,6 +29,16 @@ new PerformanceObserver((list) => {
 addEventListener("securitypolicyviolation", (event) =>
   window.broken.push(`${event.violatedDirective} ${event.blockedURI} ${event.sourceFile}`));
 """
+
+
+ASKED = """[...document.querySelectorAll("article .katex-html *")].flatMap((node) => {
+  const text = [...node.childNodes].some((x) => x.nodeType === Node.TEXT_NODE && x.data.trim());
+  const {fontFamily, fontWeight, fontStyle} = getComputedStyle(node);
+  return text ? [[fontFamily.split(",")[0], fontWeight, fontStyle].join()] : [];
+})"""
+
+THERE = """[...document.fonts].map(({family, weight, style}) =>
+  [family.replaceAll('"', ""), weight, style].join())"""
 
 
 class StrictHandler(QuietHandler):
@@ -141,6 +152,47 @@ def test_the_search_survives_any_word(browser, strict_site, words):
                               " || document.body.innerText.includes('did not match')")  # fmt: skip
         if words == "Butcher":
             assert tab.locator("#search-results li a").count()
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_only_pages_with_formulas_wait_for_their_fonts(book, page):
+    text = (book / f"{page}.html").read_text(encoding="utf-8")
+    head = text.split("</head>")[0]
+    waits = re.findall(r'<script src="[^"]*/_static/(\w+\.js)', head)
+    formulas = 'class="katex"' in text
+    assert waits == (["first.js", "fonts.js"] if formulas else ["first.js"])
+    weight = sum(len(gzip.compress((book / "_static" / name).read_bytes(), 9)) for name in waits)
+    assert weight < (80_000 if formulas else 10_000)
+
+
+def test_the_first_paint_waits_for_nothing_but_page_and_style(browser, book, site):
+    """On a line of 400 kbit/s that compresses nothing; scripts at work later come later."""
+    page, speed = "book/index.html", 50_000  # bytes a second
+    text = (book / page).read_text(encoding="utf-8")
+    needed = re.findall(r'(?:<script src|rel="stylesheet"[^>]* href)="\.\./([^"?]*)', text)
+    assert len(needed) == 4  # theme and icons, both style sheets, and one for who has no scripts
+    files = [book / page, *(book / name for name in needed if "fonts.css" not in name)]
+    allowed = 1000 * (1.15 * sum(file.stat().st_size for file in files) / speed + 1)
+    for _ in range(3):  # other tests run on the same machine
+        tab = browser.new_page(viewport={"width": 1280, "height": 800})
+        line = {"offline": False, "latency": 50, "downloadThroughput": speed}
+        session = tab.context.new_cdp_session(tab)
+        session.send("Network.enable")
+        session.send("Network.emulateNetworkConditions", line | {"uploadThroughput": speed})
+        tab.goto(site + page, wait_until="load")
+        paint = tab.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        tab.close()
+        print(f"{paint:.0f} of {allowed:.0f} ms")
+        if paint < allowed:
+            return
+    pytest.fail(f"the first paint comes after {paint:.0f} ms, not {allowed:.0f}")
+
+
+def test_every_formula_finds_its_fonts(browser, strict_site):
+    for page in ("book/model", "notebooks/03-runge-kutta", "notebooks/05-accuracy"):
+        with opened(browser, f"{strict_site}{page}.html", 1280) as (tab, _):
+            asked, there = set(tab.evaluate(ASKED)), set(tab.evaluate(THERE))
+        assert len(asked) > 2 and asked <= there
 
 
 def test_without_scripts_formulas_have_their_fonts(browser, strict_site):

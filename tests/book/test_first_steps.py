@@ -57,7 +57,8 @@ def fake_python(folder, code):
     program = folder / "bin" / "python3"
     start = "import sys; " + code
     program.write_text(
-        f"#!/bin/sh\nshift\nexec {sys.executable} -c '{start}\nexec(sys.argv[1])' \"$@\"\n"
+        f"#!/bin/sh\nshift\nexec {sys.executable} -c '{start}\nexec(sys.argv[1])' \"$@\"\n",
+        encoding="utf-8",
     )
     program.chmod(0o755)
     return str(folder / "bin" / "python3")
@@ -67,8 +68,8 @@ def fake_python(folder, code):
 @pytest.mark.parametrize(
     ("code", "told"),
     [
-        ("sys.version_info = (3, 9, 0)", "is not Python 3.11, 3.12 or 3.13"),
-        ("sys.version_info = (3, 14, 0)", "is not Python 3.11, 3.12 or 3.13"),
+        ("sys.version_info = (3, 9, 0)", "is not Python 3.11, 3.12, 3.13 or 3.14"),
+        ("sys.version_info = (3, 15, 0)", "is not Python 3.11, 3.12, 3.13 or 3.14"),
         ("sys.modules.update(ensurepip=None)", "apt install python3-venv"),
     ],
 )
@@ -86,3 +87,36 @@ def test_lab_starts_as_root_and_in_the_folder_of_the_project():
     assert "jupyter trust notebooks/*.ipynb" in output  # or their figures are hidden at first
     assert "--notebook-dir" not in output
     assert ("--allow-root" in output) == (hasattr(os, "getuid") and os.getuid() == 0)
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="needs make")
+@pytest.mark.parametrize("target", ["book", "pdf", "notebooks"])
+def test_make_says_what_it_does_in_a_line_a_step(target):
+    output = run(["make", "--dry-run", "--always-make", target], ROOT)[1]
+    steps = re.findall(r'^echo "(.*)"', output, re.MULTILINE)
+    assert steps[0].startswith("Setting up the environment") and len(steps) >= 2
+    for step in steps:
+        assert re.search(r"^[A-Z].* \.\.\.$", step)
+
+
+@pytest.mark.slow
+def test_a_kernel_of_the_book_warns_of_nothing(tmp_path):
+    code = (
+        "import sys; sys.path.insert(0, 'notebooks'); import nbformat, normalise\n"
+        "cells = [nbformat.v4.new_code_cell('print(1)')]\n"
+        "nbformat.write(nbformat.v4.new_notebook(cells=cells), sys.argv[1])\n"
+        "normalise.main(sys.argv[1:])\n"
+        "sys.path.insert(0, 'book/_ext'); import execution; from pathlib import Path\n"
+        "execution.run(Path(sys.argv[1]), Path(sys.argv[1] + '.json'), 60)\n"
+    )
+    code, output = run([sys.executable, "-c", code, str(tmp_path / "a.ipynb")], ROOT)
+    assert code == 0 and "WARN" not in output, output
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="needs make")
+def test_make_pdf_asks_for_a_browser_before_it_builds_the_book():
+    output = run(["make", "--dry-run", "pdf"], ROOT)[1]
+    assert 0 < output.index("paper.py --check") < output.index("jupyter-book build")
+    paper = [sys.executable, str(ROOT / "book" / "paper.py"), "--check"]
+    done = subprocess.run(paper, env={"PATH": ""}, capture_output=True, text=True)
+    assert done.returncode == 1 and "apt install chromium" in done.stderr

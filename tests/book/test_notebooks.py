@@ -21,7 +21,7 @@ def is_compared(cell):
 
 
 def test_is_a_page_of_the_book(path):
-    assert f"notebooks/{path.stem}" in (ROOT / "_toc.yml").read_text()
+    assert f"notebooks/{path.stem}" in (ROOT / "_toc.yml").read_text(encoding="utf-8")
 
 
 def test_nbval_runs_it_and_compares(path, request):

@@ -1,22 +1,33 @@
 """The package as others get it: a wheel in a clean environment, far from this folder."""
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
 import venv
+import zipfile
 
+import numpy as np
 import pytest
 from helpers import ROOT
+from scipy import io
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```python\n(.*?)```\s+```text\n(.*?)```", README, re.DOTALL)
 WHERE = "import suspension; print(suspension.__file__)"
 
 
-def run(python, *arguments, cwd):
+def run(python, *arguments, cwd, **environment):
     """What a Python prints; an error is shown as it came."""
-    done = subprocess.run([python, *arguments], cwd=cwd, capture_output=True, text=True)
+    done = subprocess.run(
+        [python, *arguments],
+        cwd=cwd,
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -36,7 +47,7 @@ def python(tmp_path_factory):
     site = run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder)
     # The folder's own .pth files are not followed, so the checkout stays out of sight.
     pointer = folder / "env" / site.strip() / "borrowed.pth"
-    pointer.write_text(sysconfig.get_path("purelib") + "\n")
+    pointer.write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
     return python
 
 
@@ -68,3 +79,41 @@ def test_it_finds_its_data_its_style_and_its_page(python, tmp_path):
 
 def test_it_says_what_it_reads(python, tmp_path):
     assert "spring_data.csv" in run(python, "-m", "suspension.springs", cwd=tmp_path)
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """What a wheel is made of, with a lecturer's data beside the project's, out of git's sight."""
+    tree = tmp_path_factory.mktemp("tree")
+    for part in ("suspension", "data"):
+        shutil.copytree(ROOT / part, tree / part, ignore=shutil.ignore_patterns("__pycache__"))
+    for part in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / part, tree)
+    (tree / ".gitignore").write_text("*.mat\n", encoding="utf-8")
+    x = np.linspace(0, 1, 9)
+    fields = {"delta_over_delta_max": x, "force": 640 * 0.0165 * x}
+    io.savemat(tree / "data" / "spring_data.mat", fields)
+    return tree
+
+
+@pytest.fixture(scope="module")
+def lecturers(tree, tmp_path_factory):
+    """The folder of a wheel that a lecturer has made, unpacked."""
+    folder = tmp_path_factory.mktemp("lecturers")
+    run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder, cwd=tree)
+    (wheel,) = folder.glob("*.whl")
+    zipfile.ZipFile(wheel).extractall(folder)
+    return folder
+
+
+def test_a_wheel_carries_the_data_that_the_book_was_built_from(lecturers, tmp_path):
+    where = run(sys.executable, "-c", WHERE, cwd=tmp_path, PYTHONPATH=str(lecturers))
+    assert where.startswith(str(lecturers))
+    says = run(sys.executable, "-m", "suspension.springs", cwd=tmp_path, PYTHONPATH=str(lecturers))
+    assert "spring_data.mat" in says and "synthetic" not in says and "640.0 N/m" in says
+
+
+def test_a_wheel_carries_nothing_else_from_the_folder_of_the_data(lecturers, tree):
+    carried = {path.name for path in (lecturers / "suspension" / "data").iterdir()}
+    assert carried == {"spring_data.csv", "spring_data.mat"}
+    assert carried < {path.name for path in (tree / "data").iterdir()}

@@ -1,8 +1,10 @@
 """The explorer as its readers meet it: in a static page, in the built book, in JupyterLab."""
 
 import io
+import json
 import os
 import re
+import shutil
 from itertools import combinations
 from urllib.parse import urlencode
 
@@ -11,13 +13,14 @@ import numpy as np
 import pytest
 from helpers import PARITY, ROOT, largest_difference, serve_files
 from lab import run_all, serve
-from nbformat.v4 import new_code_cell, new_notebook
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from PIL import Image
 
+from suspension import problem
 from suspension.contact import margin
 from suspension.course import the_robot
 from suspension.explorer import SCHEMES, explore, page_script, page_style
-from suspension.explorer.family import Family
+from suspension.explorer.family import Family, Range
 from suspension.flight import fly
 from suspension.forces import first_loss
 from suspension.road import GaussianBump
@@ -40,6 +43,7 @@ def two_bumps(x):
 exec(BUMPS)  # the notebook below defines it by the same lines
 LOPSIDED = "Robot(700, 1000, L1=0.12, L2=0.09, c1=2.0, c2=0.5)"
 HEUN = Scheme("Heun", 2, a=[[0, 0], [1, 0]], b=[1 / 2, 1 / 2], c=[0, 1])
+KNOWN = {"asked": problem.SPEEDS, "spring_end": problem.DELTA_MAX}
 PAGES = {
     "bump": (Robot(793.2, 793.2), GaussianBump()),
     "bumps": (eval(LOPSIDED), two_bumps),  # noqa: F821
@@ -55,7 +59,7 @@ def pages(tmp_path_factory):
     (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
     for name, (robot, road) in PAGES.items():
         presets = [("Long steps", {"v": 5, "dt": 0.05, "scheme": "Crank-Nicolson"})]
-        box = explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets)
+        box = explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets, **KNOWN)
         (folder / f"{name}.html").write_text(
             '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
@@ -116,7 +120,7 @@ def visit(browser):
 
 
 def slider(tab, name, nth=0):
-    return tab.locator(BOX).nth(nth).get_by_role("slider", name=name)
+    return tab.locator(f"{BOX}.se-live").nth(nth).get_by_role("slider", name=name)
 
 
 # Two frames later: what stands there in words, and a number for each picture, by panel.
@@ -179,7 +183,7 @@ def go_to(tab, **settings):
 
 
 def type_in(tab, name, text, nth=0):
-    field = tab.locator(BOX).nth(nth).get_by_role("textbox", name=f"{name}, typed")
+    field = tab.locator(f"{BOX}.se-live").nth(nth).get_by_role("textbox", name=f"{name}, typed")
     field.fill(text)
     field.press("Enter")
 
@@ -190,6 +194,11 @@ def place(reach, rng):
     if reach.logarithmic:
         return reach.low * (reach.high / reach.low) ** u
     return reach.low + u * (reach.high - reach.low)
+
+
+def ranges_of(family):
+    """Where every slider begins and ends."""
+    return {"v": Range(*family.speeds, True)} | family.ranges
 
 
 def family_at(settings):
@@ -208,7 +217,7 @@ def turn(tab, rng, family, nth=0):
     for trait, name in names.items():
         if name in BUMP_SLIDERS and not family.has_bump:
             continue
-        value = place(family.ranges[trait], rng) * units.get(trait, 1)
+        value = place(ranges_of(family)[trait], rng) * units.get(trait, 1)
         type_in(tab, name, f"{value:.7g}", nth)
         for _ in range(int(rng.integers(3))):
             slider(tab, name, nth).press(str(rng.choice(["ArrowLeft", "ArrowRight"])))
@@ -380,7 +389,7 @@ def test_the_headline_is_never_surer_than_the_exact_margin(visit, pages):
     tones = set()
     for _ in range(30):
         settings = {
-            name: place(reach, rng) for name, reach in Family(*PAGES["bump"]).ranges.items()
+            name: place(reach, rng) for name, reach in ranges_of(Family(*PAGES["bump"])).items()
         }
         go_to(tab, scheme=rng.choice([scheme.name for scheme in SCHEMES]), **settings)
         text, exact = headline(tab), tab.locator(VIEW).evaluate("root => root.trajectory().exact")
@@ -923,7 +932,7 @@ def test_no_page_of_the_book_brings_a_widget_manager(book):
 
 
 def test_phrases_of_the_book_set_its_picture(visit, site, book):
-    tab = visit(f"{site}notebooks/09-drive.html")
+    tab = visit(f"{site}notebooks/10-drive.html")
     links = tab.locator("article a[href^='#explore:']")
     assert links.count() >= 5
     for nth in range(links.count()):
@@ -937,22 +946,33 @@ def test_phrases_of_the_book_set_its_picture(visit, site, book):
                 assert page[name] == float(wanted[name])
 
 
+LAB_CELLS = [
+    "import numpy as np\nfrom suspension.explorer import explore\n"
+    "from suspension.road import GaussianBump\nfrom suspension.robot import Robot\n" + BUMPS,
+    f"box = explore({LOPSIDED}, two_bumps, v=0.8)\nbox",
+    "run = box.explorer.trajectory()\n"
+    "np.savez('run.npz', W=run.W, N=run.N, v=run.v, dt=run.dt)\nprint('saved', run.v)",
+]
+
+
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory):
-    """A JupyterLab with one notebook; its address and its folder."""
+    """A JupyterLab, as `make lab` starts it, with the book and one more notebook; its address and
+    its folder."""
     folder = tmp_path_factory.mktemp("lab")
-    sources = [
-        "import numpy as np\nfrom suspension.explorer import explore\n"
-        "from suspension.road import GaussianBump\nfrom suspension.robot import Robot\n" + BUMPS,
-        f"box = explore({LOPSIDED}, two_bumps, v=0.8)\nbox",
-        "run = box.explorer.trajectory()\n"
-        "np.savez('run.npz', W=run.W, N=run.N, v=run.v, dt=run.dt)\nprint('saved', run.v)",
-    ]
-    notebook = new_notebook(cells=[new_code_cell(source) for source in sources])
+    for part in ("notebooks", "book", "data"):
+        ignore = shutil.ignore_patterns("npm", "__pycache__")
+        shutil.copytree(ROOT / part, folder / part, ignore=ignore)
+    (folder / "_build" / "html" / "book").mkdir(parents=True)
+    built = folder / "_build" / "html" / "book" / "model.html"
+    built.write_text(
+        "<title>Built</title><h2 id='the-same-as-matrices'>Matrices</h2>", encoding="utf-8"
+    )
+    notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     notebook.metadata.kernelspec = kernel
     nbformat.write(notebook, folder / "drive.ipynb")
-    with serve(folder) as address:
+    with serve(folder, "--config=book/_lab/jupyter_server_config.py") as address:
         yield address, folder
 
 
@@ -963,14 +983,11 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     tab.on("pageerror", lambda error: errors.append(str(error)))
     run_all(tab, address, "drive.ipynb")
     tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
-    assert tab.locator(".suspension-explorer-still").count() == 0
-    names = ["Speed v (m/s)", "Step Δt (s)", "Stiffness k (N/m)", "Damping c (N s/m)"]
-    sliders = tab.locator(f"{BOX} .noUi-handle")
-    assert sliders.count() == len(names)
-    for nth, name in enumerate(names):
+    assert not tab.locator(".suspension-explorer-still").first.is_visible()
+    for name in SLIDERS:
         before = look(tab)
         for _ in range(3):
-            sliders.nth(nth).press("ArrowLeft")
+            slider(tab, name).press("ArrowLeft")
         tab.wait_for_timeout(150)
         assert words(tab) != before[0], name
         assert pictures(tab) != before[1], name
@@ -989,4 +1006,220 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     tab.wait_for_timeout(200)
     assert before[0] == "true" and pictures(tab) != before[1]
     assert not errors
+    tab.close()
+
+
+WIDE = {"width": 1366, "height": 768}
+ALL_SLIDERS = [*SLIDERS, *BUMP_SLIDERS]
+LIVE = f"{BOX}.se-live"
+
+
+def reach_explorer(tab, nth=0):
+    """Bring an explorer's upper edge to that of its notebook."""
+    tab.locator(LIVE).nth(nth).evaluate("box => box.scrollIntoView({ block: 'start' })")
+    tab.wait_for_timeout(700)
+
+
+def pull(tab, name, nth=0, way=40):
+    """Drag a slider's handle and back: the value before, on the way, and after."""
+    track = slider(tab, name, nth)
+    track.scroll_into_view_if_needed()
+    box, place = track.bounding_box(), float(track.input_value())
+    x = box["x"] + 10 + place * (box["width"] - 20) + 3  # not in its very middle
+    y = box["y"] + box["height"] / 2
+    way = way if place < 0.6 else -way
+
+    def value():
+        settle(tab)
+        return track.get_attribute("aria-valuetext")
+
+    seen = [value()]
+    tab.mouse.move(x, y)
+    tab.mouse.down()
+    tab.mouse.move(x + way, y + 2, steps=5)
+    seen.append(value())
+    tab.mouse.move(x, y, steps=5)
+    tab.mouse.up()
+    return [*seen, value()]
+
+
+@pytest.mark.parametrize("name", ["02-crank-nicolson", "03-runge-kutta", "10-drive"])
+def test_by_mouse_in_jupyterlab(browser, lab, name):
+    """Every slider has a track, a whole label, a picture in sight, and comes back where it was."""
+    tab = browser.new_page(viewport=WIDE)
+    run_all(tab, lab[0], f"notebooks/{name}.ipynb")
+    tab.wait_for_timeout(2000)
+    for width, height in ((1366, 768), (1000, 768), (2200, 1200)):
+        tab.set_viewport_size({"width": width, "height": height})
+        reach_explorer(tab)
+        for control in tab.locator(LIVE).first.locator(".se-control").all():
+            label = control.locator(".se-name")
+            assert control.locator("input[type=range]").bounding_box()["width"] >= 120
+            parts = [control.locator(part).bounding_box() for part in (".se-name", ".se-number")]
+            edge = control.bounding_box()
+            assert label.evaluate("e => e.scrollWidth <= e.clientWidth + 1 || !e.clientWidth")
+            assert parts[0]["x"] + parts[0]["width"] <= parts[1]["x"] + 1  # nothing is covered
+            assert parts[1]["x"] + parts[1]["width"] <= edge["x"] + edge["width"] + 1
+        sight = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer").bounding_box()
+        low = sight["y"] + sight["height"]
+        for part in (slider(tab, SLIDERS[0]), tab.locator(f"{LIVE} .se-robot").first):
+            box = part.bounding_box()
+            assert sight["y"] - 1 <= box["y"] and box["y"] + box["height"] <= low + 1, width
+        if (width, height) == (1366, 768):  # every slider, and every picture
+            for part in (slider(tab, BUMP_SLIDERS[-1]), tab.locator(f"{LIVE} .se-forces").first):
+                box = part.bounding_box()
+                assert sight["y"] - 1 <= box["y"] and box["y"] + box["height"] <= low + 1
+    tab.set_viewport_size(WIDE)
+    reach_explorer(tab)
+    for control in ALL_SLIDERS:
+        before = look(tab)
+        start, moved, after = pull(tab, control)
+        assert start == after != moved, control
+        assert look(tab) == before
+        box = slider(tab, control).bounding_box()
+        tab.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2)
+        changed = look(tab)
+        assert changed[0] != before[0] and changed[1] != before[1], control
+        assert not re.search("NaN|undefined|Infinity", changed[0])
+    tab.close()
+
+
+def test_keys_and_typed_numbers_in_jupyterlab(browser, lab):
+    address, folder = lab
+    tab = browser.new_page(viewport=WIDE)
+    run_all(tab, address, "drive.ipynb")
+    tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
+    kernel = np.load(folder / "run.npz")
+    assert (kernel["v"], kernel["dt"]) == (0.8, 0.001)  # as Python set them, nothing written back
+    for name in SLIDERS:
+        track = slider(tab, name)
+        places = [float(track.input_value())]
+        for key in ("ArrowRight", "ArrowLeft", "PageUp"):
+            track.press(key)
+            places.append(float(track.input_value()))
+        small, page = abs(places[1] - places[0]), abs(places[3] - places[2])
+        assert 0 < small <= 0.02 < page < 0.2, name
+        assert places[2] == pytest.approx(places[0], abs=0.004)
+    for text in ("1,2", "1.2"):
+        type_in(tab, SLIDERS[0], "3")
+        type_in(tab, SLIDERS[0], text)
+        assert shown(tab)[0]["v"] == 1.2
+    for nothing in ("NaN", "Infinity", "undefined"):
+        slider(tab, SLIDERS[0]).evaluate(
+            f"e => {{ e.value = {nothing}; e.dispatchEvent(new Event('input')); }}"
+        )
+        assert 0.1 <= shown(tab)[0]["v"] <= 25
+    tab.close()
+
+
+def save(tab):
+    tab.keyboard.press("Control+s")
+    tab.wait_for_function("!document.querySelector('.jp-mod-dirty')")
+    tab.wait_for_timeout(1500)
+
+
+def test_a_notebook_opens_unchanged_saves_clean_and_keeps_its_pictures(browser, lab):
+    address, folder = lab
+    file = folder / "notebooks" / "10-drive.ipynb"
+    before = file.read_text(encoding="utf-8")
+    tab = browser.new_page(viewport=WIDE)
+    tab.goto(f"{address}lab/tree/notebooks/10-drive.ipynb?reset")
+    tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
+    tab.wait_for_timeout(3000)
+    assert tab.locator(".jp-mod-dirty").count() == 0
+    picture = tab.locator(".jp-OutputArea-output.jp-RenderedSVG").first
+    assert picture.bounding_box()["height"] > 200
+    assert "Run All Cells" in picture.locator("img, svg").first.evaluate(
+        "e => decodeURIComponent(e.src ?? e.outerHTML)"
+    )
+    run_all(tab, address, "notebooks/10-drive.ipynb")
+    tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
+    tab.wait_for_timeout(2000)
+    save(tab)
+    assert "widget-view" not in file.read_text(encoding="utf-8")
+    old, new = json.loads(before), json.loads(file.read_text(encoding="utf-8"))
+    assert [new[key] for key in ("metadata", "nbformat_minor")] == [
+        old[key] for key in ("metadata", "nbformat_minor")
+    ]
+    for was, cell in zip(old["cells"], new["cells"], strict=True):
+        assert {**cell, "outputs": 0} == {**was, "outputs": 0}
+        kinds = [[sorted(out.get("data", {})) for out in c.get("outputs", [])] for c in (was, cell)]
+        assert kinds[0] == kinds[1]
+    tab.close()
+
+
+def test_without_its_kernel_another_notebook_shows_its_still_picture(browser, lab):
+    """One that is saved as JupyterLab saves it, with a widget that will not be there."""
+    address, _ = lab
+    tab = browser.new_page(viewport=WIDE)
+    run_all(tab, address, "drive.ipynb")
+    tab.wait_for_timeout(1500)
+    save(tab)
+    token = next(c["value"] for c in tab.context.cookies() if c["name"] == "_xsrf")
+    for session in tab.request.get(f"{address}api/sessions").json():
+        tab.request.delete(f"{address}api/sessions/{session['id']}", headers={"X-XSRFToken": token})
+    tab.goto(f"{address}lab/tree/drive.ipynb?reset")
+    still = tab.locator(".suspension-explorer-still").first
+    still.wait_for(timeout=60_000)
+    tab.wait_for_timeout(4000)
+    assert still.bounding_box()["height"] > 200
+    assert tab.get_by_text("run the notebook (Run > Run All Cells)").first.is_visible()
+    assert not tab.get_by_text("model not found").first.is_visible()
+    assert (
+        tab.locator(f"{BOX} input").count() == 0
+        or not tab.locator(f"{BOX} input").first.is_visible()
+    )
+    tab.close()
+
+
+def test_phrases_and_links_lead_somewhere_in_jupyterlab(browser, lab):
+    address, folder = lab
+    tab = browser.new_page(viewport=WIDE)
+    run_all(tab, address, "notebooks/10-drive.ipynb")
+    tab.wait_for_timeout(3000)
+    phrase = tab.locator("a[href='#explore:v=0.25']").first
+    phrase.click()
+    assert shown(tab)[0]["v"] == 0.25
+    tab.get_by_role("button", name="Stable, wrong").first.click()
+    assert tone(tab) == "doubt"
+    with tab.context.expect_page() as opened:
+        tab.get_by_role("link", name="the package").click()
+    assert opened.value.url == f"{address}static/book/model.html#the-same-as-matrices"
+    (folder / "_build" / "html" / "book" / "model.html").unlink()  # not built: its text, rendered
+    tab.bring_to_front()
+    tab.get_by_role("link", name="the package").click()
+    heading = tab.locator(".jp-MarkdownViewer").get_by_role("heading", name="The same, as matrices")
+    heading.wait_for()
+    tab.wait_for_timeout(500)
+    assert 0 < heading.bounding_box()["y"] < 400
+    tab.close()
+
+
+def test_a_phrase_on_another_notebooks_picture_waits_until_it_is_run(browser, lab):
+    address, folder = lab
+    notebook = new_notebook(
+        cells=[
+            new_markdown_cell(
+                "[drive it](../notebooks/10-drive.ipynb#explore:v=3.3&k=700)\n\n"
+                "[the fit](../notebooks/06-critical-speeds.ipynb#fig-sensitivity)"
+            )
+        ]
+    )
+    nbformat.write(notebook, folder / "notebooks" / "links.ipynb")
+    tab = browser.new_page(viewport=WIDE)
+    tab.goto(f"{address}lab/tree/notebooks/links.ipynb?reset")
+    tab.get_by_role("link", name="drive it").click()
+    tab.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-mod-active").first.wait_for()
+    tab.wait_for_timeout(4000)
+    tab.get_by_role("menuitem", name="Run", exact=True).click()
+    tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    tab.wait_for_selector(f"{LIVE} canvas[aria-label]", timeout=90_000)
+    tab.wait_for_timeout(2500)
+    page = shown(tab)[0]
+    assert (page["v"], page["k"]) == (3.3, 700)
+    tab.goto(f"{address}lab/tree/notebooks/links.ipynb?reset")
+    tab.get_by_role("link", name="the fit").click()
+    tab.wait_for_function("""() => [...document.querySelectorAll(".jp-Cell.jp-mod-active")]
+      .some((cell) => cell.textContent.includes("fig-sensitivity")
+        && cell.getBoundingClientRect().top < innerHeight)""")
     tab.close()

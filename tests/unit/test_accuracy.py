@@ -150,3 +150,16 @@ def test_speeds_beside_the_last_critical_one_lose_contact_and_lie_within_5_perce
 
 def test_without_a_critical_speed_there_are_none_beside_it():
     assert accuracy.just_lost(ROBOT, BUMP, []).shape == (0,)
+
+
+@pytest.mark.parametrize("omega", [5.0, 40.0])
+def test_rk4_turns_an_undamped_mode_over_at_root_six(omega):
+    """There R(i y) is a negative number."""
+    dts = np.linspace(0.01, 2.7, 2000) / omega
+    dt = accuracy.half_turn(accuracy.seen_mode(RK4, 1j * omega, dts), dts)
+    assert dt * omega == pytest.approx(np.sqrt(6), rel=1e-5)
+
+
+def test_crank_nicolson_never_turns_a_mode_over():
+    dts = np.geomspace(1e-3, 100, 500)
+    assert accuracy.half_turn(accuracy.seen_mode(CRANK_NICOLSON, 20j, dts), dts) is None

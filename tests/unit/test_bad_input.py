@@ -18,16 +18,32 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from helpers import ROOT
+from helpers import ROOT, Quantity, UnitArray
 from matplotlib import pyplot as plt
 
 import suspension
-from suspension import choice, contact, course, exact, frequency, measured, springs
+from suspension import (
+    accuracy,
+    choice,
+    contact,
+    course,
+    exact,
+    frequency,
+    measured,
+    similarity,
+    spring_law,
+    springs,
+    travel,
+)
 from suspension.animation import animate_robot
+from suspension.branches import branches
+from suspension.energy import energy, landings
 from suspension.explorer import explore
+from suspension.least_force import distance_over
 from suspension.road import RoadProfile, RoughRoad
-from suspension.sweep import peaks, sweep
-from suspension.travel import travel
+from suspension.sweep import drive, sweep
+from suspension.tyre import Tyre, heaviest_wheel, roll
+from suspension.uncertainty import loss_probability
 
 matplotlib.use("Agg")
 
@@ -43,8 +59,10 @@ FIT = springs.fit_spring(DATA)
 T = np.linspace(0, 1, 11)
 W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
-LAW = measured.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
-TWO_LAWS = measured.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
+TYRE = Tyre(0.01, 1e5, 3.0)
+FLIGHT = suspension.fly(ROBOT, BUMP, v=5, tfinal=0.1)
+LAW = spring_law.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
+TWO_LAWS = spring_law.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
 
 class Thing:
@@ -58,12 +76,16 @@ NOT_A_NUMBER = [
     *(np.ma.masked, np.ma.array(1.0, mask=True)),
     *([], [1.0], [1.0, 2.0], (1.0, 2.0), np.array([1.0]), np.array([1.0, 2.0]), np.eye(2)),
     *(np.datetime64("2026-01-01"), np.timedelta64(1, "s")),
+    *(Quantity(1.0), Quantity(np.ones(2)), [Quantity(1.0)], UnitArray(1.0), UnitArray([1.0])),
     *({}, {1.0}, Thing(), Thing, len, slice(3)),
 ]
 NEGATIVE = [-1, -1.5, -1e-300, np.float32(-2), Fraction(-1, 3), -np.finfo(float).max]
 ZERO = [0, 0.0, -0.0, False]
 NOT_NONNEGATIVE = NOT_A_NUMBER + NEGATIVE
 NOT_POSITIVE = NOT_NONNEGATIVE + ZERO
+OUTSIDE = [np.nan, np.inf, -np.inf, [np.nan, 1.0], [1.0, np.inf]]
+NOT_A_DISTANCE = [*(value for value in NOT_POSITIVE if value is not None), 1e9, 1e300]
+UNDER_A_WHEEL = [suspension.GaussianBump(centre=x) for x in (0.107, -0.107, 0.0, 0.2, -0.2)]
 NOT_WHOLE = [*NOT_POSITIVE, 0.5, 1.5, 1 + 1e-9, Fraction(3, 2)]
 NOT_AN_OBJECT = [
     *(None, 3, 2.5, True, np.nan, 1j, Decimal(1), "robot", b"robot"),
@@ -74,7 +96,7 @@ NOT_A_ROBOT = [*NOT_AN_OBJECT, Thing, suspension.Robot, BUMP, RK4, len]
 NOT_A_BUMP = [*NOT_AN_OBJECT, Thing, suspension.GaussianBump, ROBOT, suspension.FlatRoad(), len]
 NOT_A_SCHEME = [*NOT_AN_OBJECT, Thing, suspension.Scheme, "RK4", ROBOT, len]
 NOT_A_TABLE = [*NOT_AN_OBJECT, Thing, ROBOT, DATA["force"], np.ones((5, 2)), len]
-NOT_A_LAW = [*NOT_AN_OBJECT, Thing, measured.SpringLaw, FIT, ROBOT, len]
+NOT_A_LAW = [*NOT_AN_OBJECT, Thing, spring_law.SpringLaw, FIT, ROBOT, len]
 NOT_A_FIT = [*NOT_AN_OBJECT, Thing, springs.SpringFit, FIT.results, DATA, LAW, len]
 NO_ROADS = [
     lambda x: None,
@@ -91,6 +113,8 @@ NO_ROADS = [
     lambda x: (x, x.astype(str)),
     lambda x: (x, np.full(x.shape, None)),
     lambda x: "HH",
+    lambda x: (Quantity(x), x),
+    lambda x: (x, UnitArray(x)),
     lambda x: (np.ma.array(x, mask=True), x),
     len,
 ]
@@ -110,6 +134,7 @@ def not_an_array(good, complex_too=False):
         *(good.astype(str), good.astype(bytes), good.astype(object), good.astype("M8[s]")),
         *(np.full(good.shape, None), pd.Series(["1.5"]), [None], ["1", "2"], [[1], [2, 3]]),
         *(np.ma.masked, np.ma.array(good, mask=True), np.ma.masked_equal(good, good.flat[0])),
+        *(Quantity(good), UnitArray(good), [Quantity(good)], [UnitArray(1.0)] * 4, UnitArray(1.0)),
         *([10**400] * 4, np.zeros(4, dtype=[("x", float)]), (x for x in "1234"), iter([1.0])),
     ]
     return values if complex_too else [*values, 1j, good.astype(complex), good + 1j]
@@ -238,6 +263,47 @@ TABLE = [
         NO_DRIVE,
     ),
     Row(
+        "Tyre",
+        Tyre,
+        {"mass": 0.01, "stiffness": 1e5, "damping": 3.0},
+        {"mass": NOT_POSITIVE, "stiffness": NOT_POSITIVE, "damping": NOT_NONNEGATIVE},
+    ),
+    Row(
+        "roll",
+        roll,
+        DRIVE | {"tyre": TYRE, "tfinal": 0.01, "samples": 3, "resolution": 0.01, "rtol": 1e-5},
+        {
+            "road": NO_ROADS,
+            "v": [*NOT_POSITIVE, 1e300],
+            "tfinal": [*NOT_POSITIVE, 1e12, 1e300],
+            "samples": [*NOT_WHOLE, 1, 10**12],
+            "resolution": [*but(NOT_POSITIVE, None), TOO_MANY_STEPS],
+            "rtol": [*NOT_POSITIVE, 1],
+        },
+        NO_DRIVE | {"tyre": [*NOT_AN_OBJECT, Tyre, ROBOT, len]},
+    ),
+    Row(
+        "heaviest_wheel",
+        heaviest_wheel,
+        CROSS | {"distance": 1.25},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        NO_CROSSING,
+    ),
+    Row(
+        "energy",
+        energy,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "landings",
+        landings,
+        {"flight": FLIGHT, "robot": ROBOT, "road": BUMP},
+        {"road": NO_ROADS},
+        {"flight": NOT_AN_OBJECT, "robot": NOT_A_ROBOT, "road": NOT_AN_OBJECT},
+    ),
+    Row(
         "flat_ground",
         exact.flat_ground,
         {"robot": ROBOT, "w0": np.zeros(4), "t": T},
@@ -286,11 +352,128 @@ TABLE = [
         )
         for function in (suspension.margin, contact.minima, contact.exact_loss)
     ),
+    *(
+        Row(
+            f"{function.__name__} over a distance",
+            function,
+            CROSS | {"distance": 1.0},
+            {"distance": NOT_A_DISTANCE},
+            {"bump": NOT_A_BUMP},
+        )
+        for function in (
+            suspension.margin,
+            contact.minima,
+            contact.exact_loss,
+            travel.travel,
+            travel.balance,
+            accuracy.disagreement,
+        )
+    ),
     Row(
-        "critical_speeds",
-        suspension.critical_speeds,
-        {"robot": ROBOT, "bump": BUMP, "vmin": 7.0, "vmax": 9.0},
-        {"vmin": [*NOT_POSITIVE, 9, 10, 1e-300], "vmax": [*NOT_POSITIVE, 7, 6, 1e300]},
+        "distance_over",
+        distance_over,
+        {"robot": ROBOT, "bump": BUMP, "distance": 1.0},
+        {"distance": but(NOT_POSITIVE, None), "bump": UNDER_A_WHEEL},
+        NO_CROSSING,
+    ),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "bump": BUMP, "vmin": 7.0, "vmax": 9.0, "distance": 1.0},
+            {
+                "vmin": [*NOT_POSITIVE, 9, 10, 1e-300],
+                "vmax": [*NOT_POSITIVE, 7, 6, 1e300],
+                "distance": NOT_A_DISTANCE,
+                "bump": UNDER_A_WHEEL,
+            },
+            NO_CROSSING,
+        )
+        for function in (suspension.critical_speeds, suspension.regimes)
+    ),
+    Row(
+        "Regimes",
+        contact.Regimes,
+        {"edges": [1.0, 2.0, 3.0], "lost": [True, False]},
+        {
+            "edges": [
+                *not_finite([1.0, 2.0, 3.0]),
+                [1],
+                [],
+                [0, 1, 2],
+                [1, 3, 2],
+                [1, 1, 2],
+            ],
+            "lost": [*not_finite([1.0, 0.0]), [True], [True] * 3, [2, 0], [0.5, 1]],
+        },
+    ),
+    Row(
+        "Regimes()",
+        contact.Regimes([1.0, 2.0, 3.0], [True, False]),
+        {"v": [1.0, 3.0]},
+        {"v": [*not_an_array(1.0), *OUTSIDE, 0.5, [1, 3.1], [[1], [4]]]},
+    ),
+    Row(
+        "regimes_between",
+        contact.regimes_between,
+        {"margin_at": lambda v: 2.5 - v, "edges": [1.0, 2.5, 3.0]},
+        {"edges": [*not_finite([1.0, 2.0]), [1], [], [0, 1], [2, 1], [1, 1]]},
+        {"margin_at": NOT_AN_OBJECT},
+    ),
+    Row(
+        "is_lost",
+        contact.is_lost,
+        {"margin": [1.0, -2.0]},
+        {"margin": [*not_an_array(1.0), *OUTSIDE]},
+    ),
+    Row(
+        "branches",
+        branches,
+        {"robot": ROBOT, "bump": BUMP, "vmin": 7.5, "vmax": 8.0, "kmin": 780.0, "kmax": 800.0}
+        | {"check": 790.0, "distance": 1.0},
+        {
+            "vmin": [*NOT_POSITIVE, 8, 10],
+            "vmax": [*NOT_POSITIVE, 7.5, 6],
+            "kmin": [*NOT_POSITIVE, 800, 900],
+            "kmax": [*NOT_POSITIVE, 780, 1],
+            "check": [*but(NOT_POSITIVE, None), 779, 801],
+            "distance": NOT_A_DISTANCE,
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "loss_probability",
+        loss_probability,
+        {"stiffness": FIT, **CROSS, "distance": 1.0},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        {"stiffness": but(NOT_A_FIT, FIT.slope), **NO_CROSSING},
+    ),
+    Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 5},
+        {"J": but(NOT_WHOLE, *ZERO)},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [0.01, 0.04]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0.0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1.0, 2.0]), [1.0], [1.0, 2.0, 3.0], 1.0],
+        },
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        {"robot": ROBOT, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
+        {"steps": [[J] for J in [*NOT_WHOLE, *ZERO]]},
+    ),
+    Row(
+        "just_lost",
+        accuracy.just_lost,
+        {"robot": ROBOT, "bump": BUMP, "critical": [7.9457], "n": 2},
+        {"n": NOT_WHOLE},
         NO_CROSSING,
     ),
     Row(
@@ -311,30 +494,44 @@ TABLE = [
         {"v": NOT_POSITIVE, "names": [*NOT_A_NUMBER, "k", "V", "height", ["k1"]]},
         NO_CROSSING,
     ),
-    *(
-        Row(
-            function.__name__,
-            function,
-            {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10}
-            | {"distance": 1.0, "scheme": RK4},
-            {
-                "robots": [[ROBOT] * 3],
-                "road": NO_ROADS,
-                "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
-                "steps": [*NOT_WHOLE, 10**12, 10**9],
-                "distance": NOT_POSITIVE,
-            },
-            {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
-            | {"scheme": NOT_A_SCHEME},
-        )
-        for function in (sweep, peaks)
+    Row(
+        "sweep",
+        sweep,
+        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [1.0, 2.0], "steps": 10}
+        | {"distance": 1.0, "scheme": RK4},
+        {
+            "robots": [[ROBOT] * 3],
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3]],
+            "steps": [*NOT_WHOLE, 10**12, 10**9],
+            "distance": NOT_POSITIVE,
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+        | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "drive",
+        drive,
+        {"robots": [ROBOT, ROBOT], "road": BUMP, "v": [20.0, 10.0], "law": TWO_LAWS}
+        | {"ground": "pulls", "geometry": "full", "distance": 1.25, "fine": 0.1},
+        {
+            "robots": [[ROBOT] * 3],
+            "road": NO_ROADS,
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1e-3, 1e-6]],
+            "ground": [*NOT_A_NUMBER, "pulled", "Pushes"],
+            "geometry": [*NOT_A_NUMBER, "large", True],
+            "distance": [*but(NOT_POSITIVE, None), 1e9],
+            "fine": [*NOT_POSITIVE, 1e9, 1e300],
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
+        | {"law": but(NOT_A_LAW, None)},
     ),
     Row(
         "RoughRoad",
         RoughRoad,
         {"roughness": 1e-5, "length": 1.0, "shortest": 0.1, "seed": 1},
         {
-            "roughness": NOT_NONNEGATIVE,
+            "roughness": [*NOT_NONNEGATIVE, 1e308],
             "length": [*NOT_POSITIVE, 0.01, 1e5],
             "shortest": [*NOT_POSITIVE, 2, 1e-6],
             "seed": but([*NOT_WHOLE, 10**400], *ZERO),
@@ -370,6 +567,63 @@ TABLE = [
         for function in (frequency.steady_start, frequency.rms)
     ),
     Row(
+        "accuracy.errors",
+        accuracy.errors,
+        CROSS | {"dt": 0.01, "scheme": RK4},
+        {"v": NOT_POSITIVE, "dt": NOT_POSITIVE},
+        NO_CROSSING | {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "evaluations",
+        accuracy.evaluations,
+        {"scheme": RK4, "J": 7},
+        {"J": but(NOT_WHOLE, *ZERO)},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "seen_mode",
+        accuracy.seen_mode,
+        {"scheme": RK4, "lam": -1 + 2j, "dts": [0.1, 0.2]},
+        {"dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]]},
+        {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "fitted_order",
+        accuracy.fitted_order,
+        {"dts": [0.1, 0.2], "errors": [1e-3, 4e-3]},
+        {
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]],
+            "errors": [*not_an_array([1e-3, 4e-3]), [1.0, 2.0, 3.0], []],
+        },
+    ),
+    Row(
+        "just_lost",
+        accuracy.just_lost,
+        {"robot": ROBOT, "bump": BUMP, "critical": [0.437], "n": 1},
+        {"critical": not_finite([0.437]), "n": [*NOT_WHOLE]},
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
+    ),
+    *(
+        Row(function.__name__, function, CROSS | more, {"v": NOT_POSITIVE})
+        for function, more in (
+            (accuracy.solve_ivp_errors, {"method": "RK45", "tolerances": [1e-3]}),
+            (accuracy.disagreement, {}),
+            (accuracy.event_run, {}),
+            (accuracy.missed_dip, {}),
+        )
+    ),
+    Row(
+        "flight_errors",
+        accuracy.flight_errors,
+        DRIVE | {"tfinal": 0.1, "steps": [10]},
+        {
+            "v": NOT_A_NUMBER,
+            "tfinal": NOT_POSITIVE,
+            "steps": [[10, bad] for bad in NOT_WHOLE],
+        },
+        NO_DRIVE,
+    ),
+    Row(
         "spectral_rms",
         frequency.spectral_rms,
         {"robot": ROBOT, "v": 1.2, "roughness": 1e-5, "longest": 2, "shortest": 1, "points": 9},
@@ -395,10 +649,24 @@ TABLE = [
         NO_DRIVE,
     ),
     Row(
+        "candidate",
+        choice.candidate,
+        {"robot": ROBOT, "bump": BUMP, "v": [9.0, 10.0]},
+        {"v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], []]},
+        NO_CROSSING,
+    ),
+    Row(
+        "fitted_with",
+        choice.fitted_with,
+        {"robot": ROBOT, "k": 700.0, "c": 1.0},
+        {"k": NOT_POSITIVE, "c": NOT_NONNEGATIVE},
+        {"robot": NOT_A_ROBOT},
+    ),
+    Row(
         "efficient",
         choice.efficient,
         {"costs": np.ones((3, 2))},
-        {"costs": not_finite(np.ones((3, 2)))},
+        {"costs": [*not_finite(np.ones((3, 2))), np.ones((5001, 2))]},
     ),
     *(
         Row(
@@ -420,8 +688,84 @@ TABLE = [
         )
     ),
     Row(
+        "groups",
+        similarity.groups,
+        CROSS,
+        {"v": NOT_POSITIVE, "robot": [suspension.Robot(1, 2), suspension.Robot(1, 1, g=0)]},
+        NO_CROSSING,
+    ),
+    Row(
+        "highest_bump",
+        suspension.highest_bump,
+        CROSS | {"v": [1.0, 2.0], "distance": [1.0, 2.0]},
+        {
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3], 1e-9],
+            "distance": [
+                *but(not_an_array([1.0, 2.0]), None),
+                *(0, [1, -1], [1, np.nan], [np.inf, 1], [1, 2, 3], 1e12),
+            ],
+        },
+        NO_CROSSING,
+    ),
+    Row(
+        "way",
+        similarity.way,
+        CROSS | {"swings": 2.0},
+        {"v": [*not_an_array(1.0), 0, [1, -1], np.nan], "swings": NOT_NONNEGATIVE},
+        NO_CROSSING,
+    ),
+    *(
+        Row(
+            "natural_units",
+            lambda name, value: similarity.natural_units(
+                similarity.Groups(1.0, 0.1, 3.0, 1.0, 4.0)._replace(**{name: value})
+            ),
+            {"name": name, "value": 2.0},
+            {"value": bad},
+            also=(name, "height"),
+        )
+        for name, bad in [
+            *((name, NOT_POSITIVE) for name in ("nu", "j", "lam")),
+            ("zeta", NOT_NONNEGATIVE),
+            ("eta", NOT_A_NUMBER),
+        ]
+    ),
+    Row("follow", similarity.follow, {"nu": 1.0, "j": 1.0}, {"nu": [0, "1"], "j": NOT_POSITIVE}),
+    Row("throw", similarity.throw, {"nu": 1.0}, {"nu": [*not_an_array(1.0), 0, -1, np.inf]}),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"nu": 1.0, "zeta": 0.1},
+            {"nu": [0, "1"], "zeta": NOT_POSITIVE},
+        )
+        for function in (similarity.skim, similarity.still)
+    ),
+    Row(
+        "comb",
+        similarity.comb,
+        {"nu": 1.0, "j": 1.0, "lam": 3.0},
+        {"nu": [0, "1"], "j": NOT_POSITIVE, "lam": NOT_POSITIVE},
+    ),
+    Row("window_limit", similarity.window_limit, {"zeta": 0.1}, {"zeta": NOT_POSITIVE}),
+    Row("closing_limit", similarity.closing_limit, {"eta": 3.0}, {"eta": NOT_POSITIVE}),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {"robot": ROBOT, "bump": BUMP, "vmin": 6.0, "vmax": 20.0, "distance": 1.0},
+            {
+                "vmin": [*NOT_POSITIVE, 20, 21],
+                "vmax": [*NOT_POSITIVE, 6, 0.1],
+                "distance": but(NOT_POSITIVE, None, Thing, len),
+            },
+            NO_CROSSING,
+        )
+        for function in (similarity.window, similarity.closing)
+    ),
+    Row(
         "travel",
-        travel,
+        travel.travel,
         CROSS | {"samples": 11},
         {"v": NOT_POSITIVE, "samples": [*NOT_WHOLE, 10**12]},
         NO_CROSSING,
@@ -440,8 +784,27 @@ TABLE = [
         also=("README.md", "pyproject.toml"),
     ),
     Row(
-        "measured.SpringLaw",
-        measured.SpringLaw,
+        "SpringFit.power",
+        FIT.power,
+        {"beta0": 0.1, "beta2": 0.5, "level": 0.95},
+        {
+            "beta0": [*not_an_array(0.1), np.nan, np.inf],
+            "beta2": [*not_an_array(0.5), np.nan, -np.inf],
+            "level": [*NOT_A_NUMBER, 0, 1, 95, -0.5],
+        },
+    ),
+    Row(
+        "SpringFit.band",
+        FIT.band,
+        {"x": np.array([0.0, 0.5]), "level": 0.95},
+        {
+            "x": [*not_an_array(np.zeros(2)), 0.5, np.eye(2), [np.nan]],
+            "level": [*NOT_A_NUMBER, 0, 1, 95],
+        },
+    ),
+    Row(
+        "spring_law.SpringLaw",
+        spring_law.SpringLaw,
         {"beta0": 0.1, "beta1": 13.0, "beta2": -0.5, "delta_max": 0.0165, "stop": 8000.0},
         {
             "beta0": [*not_an_array(0.1), np.nan, np.inf, [np.nan, 0.0]],
@@ -453,41 +816,30 @@ TABLE = [
     ),
     Row(
         "SpringLaw.of",
-        measured.SpringLaw.of,
+        spring_law.SpringLaw.of,
         {"fit": FIT, "stop": 8000.0},
         {"stop": [*not_an_array(8000.0), np.nan, np.inf, -1.0]},
         {"fit": NOT_A_FIT},
     ),
     Row(
-        "measured.rest",
-        measured.rest,
+        "spring_law.rest",
+        spring_law.rest,
         {"robot": ROBOT, "law": LAW},
         {},
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
     ),
     Row(
         "linearised",
-        measured.linearised,
+        spring_law.linearised,
         {"robot": ROBOT, "law": LAW, "w": np.zeros(4)},
         {"law": [TWO_LAWS], "w": but(not_like(np.zeros(4)), None)},
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
     ),
     Row(
         "make_measured_gfunc",
-        lambda robot, law, road: measured.make_measured_gfunc(robot, law, road)(T[:4], 0.1, 1.0),
+        lambda robot, law, road: spring_law.make_measured_gfunc(robot, law, road)(T[:4], 0.1, 1.0),
         {"robot": ROBOT, "law": LAW, "road": BUMP},
         {"law": [TWO_LAWS], "road": NO_ROADS},
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
-    ),
-    Row(
-        "drive",
-        measured.drive,
-        {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": [20.0, 10.0], "fine": 0.1},
-        {
-            "road": NO_ROADS,
-            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1.0] * 10**6],
-            "fine": [*NOT_POSITIVE, 1e9, 1e300],
-        },
         {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
@@ -499,14 +851,26 @@ TABLE = [
             "v": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
             "zooms": [*NOT_NONNEGATIVE, 0.5],
         },
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW},
+        {"law": NOT_A_LAW},
+    ),
+    Row(
+        "zero_stops",
+        measured.zero_stops,
+        {"robot": ROBOT, "law": LAW, "road": BUMP, "v": 20.0, "stops": [5e2, 1e3], "zooms": 0},
+        {
+            "law": [TWO_LAWS],
+            "v": [*NOT_POSITIVE, 1e-300],
+            "stops": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
+            "zooms": [*NOT_NONNEGATIVE, 0.5],
+        },
+        {"law": NOT_A_LAW},
     ),
     Row(
         "follow_speed",
         measured.follow_speed,
         {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": 20.0},
         {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300]},
-        {"robot": NOT_A_ROBOT, "law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+        {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
         "joint_draws",
@@ -622,7 +986,7 @@ TABLE = [
         DRIVE | {"dt": 0.01, "k": 800, "scheme": RK4, "time": 0.5, "view": "robot"},
         {
             "road": NO_ROADS,
-            "v": [*NOT_POSITIVE, 0.01, 100],
+            "v": [*but(NOT_POSITIVE, None), 0.01, 100],
             "dt": [*NOT_POSITIVE, 0.3],
             "k": but(NOT_POSITIVE, None),
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
@@ -685,7 +1049,7 @@ def limits(seconds, gigabytes):
     before = signal.signal(signal.SIGPROF, stop)
     memory = resource.getrlimit(resource.RLIMIT_AS)
     if sys.platform == "linux":
-        pages = int(open("/proc/self/statm").read().split()[0])
+        pages = int(open("/proc/self/statm", encoding="utf-8").read().split()[0])
         most = pages * resource.getpagesize() + int(gigabytes * 2**30)
         resource.setrlimit(resource.RLIMIT_AS, (most, memory[1]))
     signal.setitimer(signal.ITIMER_PROF, seconds)

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from helpers import Quantity, UnitArray
 
 from suspension import _checks
 
@@ -25,6 +26,13 @@ def test_what_is_not_a_finite_number_is_refused_by_name_and_value(check, value):
     with pytest.raises(ValueError, match=r"^mass must be a finite number") as error:
         check("mass", value)
     assert str(error.value).endswith(f"got {value!r}")
+
+
+@pytest.mark.parametrize("value", [Quantity(3), UnitArray(3), [Quantity(3)], Quantity([3, 4])])
+@pytest.mark.parametrize("check", [_checks.number, _checks.positive, _checks.nonnegative])
+def test_a_number_with_units_is_refused_as_such(check, value):
+    with pytest.raises(ValueError, match=r"^m must be a number in SI units, without units of its"):
+        check("m", value)
 
 
 @pytest.mark.parametrize(
@@ -66,6 +74,9 @@ def test_an_array_comes_back_as_floats_and_none_stands_for_any_length():
         (np.full((4, 1), 1j), "an array of numbers"),
         ([[10**400]] * 4, "an array of numbers"),
         (None, "an array of numbers"),
+        (Quantity(np.ones((4, 1))), "an array in SI units, without units"),
+        (UnitArray(np.ones((4, 1))), "an array in SI units, without units"),
+        ([[Quantity(1.0)]] * 4, "an array in SI units, without units"),
     ],
 )
 def test_an_array_of_another_kind_is_refused_by_name(value, why):

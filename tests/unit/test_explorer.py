@@ -2,29 +2,30 @@
 
 import base64
 import gzip
-import inspect
 import json
 import re
 import warnings
+from dataclasses import replace
 from urllib.parse import unquote
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from matplotlib.path import Path as Polygon
 from node import run_in_node
 
+from suspension import problem
+from suspension.contact import margin
 from suspension.explorer import DTS, SCHEMES, explore, page_script, page_style, tables
 from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import native
 from suspension.explorer.family import Family, affine
-from suspension.explorer.settings import SPRING_END
-from suspension.explorer.still import still
+from suspension.explorer.still import draw, picture
 from suspension.report.words import quantity
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import EULER, Scheme
 from suspension.simulation import simulate
-from suspension.springs import fit_spring
 
 BUMP = GaussianBump()
 ROBOT = Robot(793.2, 793.2)
@@ -133,6 +134,7 @@ def test_every_slider_holds_the_robots_own_value(robot):
     family = Family(robot, GaussianBump(height=-0.03, sigma=0.2))
     for name, value in family.own.items():
         assert value in family.ranges[name], name
+        assert family.ranges[name].low < family.ranges[name].high
     assert family.robot_at(**{name: family.own[name] for name in ("k", "c")}) is robot
     assert family.road_at(0.01, 0.05) == GaussianBump(height=0.01, sigma=0.05)
 
@@ -168,10 +170,6 @@ def test_round_steps_are_on_the_slider_fine_to_coarse():
     assert {0.2, 0.1, 0.001, 0.0005, 0.00025} <= set(DTS)
 
 
-def test_the_measured_spring_ends_where_the_fit_says():
-    assert inspect.signature(fit_spring).parameters["delta_max"].default == SPRING_END
-
-
 def test_trajectory_is_simulate_at_the_settings():
     box = explore(ROBOT, BUMP, v=5, dt=0.0021, k=1000, c=2, height=0.01, sigma=0.04, scheme=HEUN)
     expected = simulate(
@@ -196,21 +194,110 @@ def test_it_starts_where_contact_is_lost_or_nearly():
     assert explore(ROBOT, BUMP, time=0.25).explorer.time == 0.25
 
 
-def test_sliders_show_the_settings():
-    box = explore(LOPSIDED, BUMP, v=0.8, dt=0.002, scheme="Crank-Nicolson", view="robot")
-    *sliders, scheme = box.children[0].children
+def test_what_python_has_set_stays_as_it_is():
+    given = {"v": 0.8123456789, "dt": 0.00212345, "k": 703.123456, "c": 2.0123456}
+    box = explore(LOPSIDED, BUMP, **given, scheme="Crank-Nicolson", view="robot")
     explorer = box.explorer
-    assert explorer in box.children and explorer.view == "robot"
-    values = [slider.value for slider in sliders]
-    assert values == pytest.approx([0.8, 0.002, 700, 2, 0.0254, 0.0288])
-    assert scheme.index == explorer.scheme_index and scheme.label == "Crank-Nicolson"
-    assert all(control.description for control in box.children[0].children)
+    assert box.children == (explorer,) and explorer.view == "robot"
+    assert {name: getattr(explorer, name) for name in given} == given
+    assert (explorer.height, explorer.sigma) == (BUMP.height, BUMP.sigma)
+    assert explorer.scheme.name == "Crank-Nicolson"
+
+
+@pytest.mark.parametrize("name", ["v", "dt", "k", "c", "height", "sigma", "time"])
+def test_no_number_becomes_one_that_is_none(name):
+    explorer = explore(ROBOT, BUMP).explorer
+    before = getattr(explorer, name)
+    for bad in (np.nan, np.inf, -np.inf, 1e9, -1e9):
+        with pytest.raises(ValueError, match=f"^{name} must be .*, got {bad!r}"):
+            setattr(explorer, name, bad)
+        assert getattr(explorer, name) == before
+    with pytest.raises(ValueError, match="^scheme_index must be one of"):
+        explorer.scheme_index = 4
+
+
+CAR = Robot(20000, 22000, m=1200, Izz=1800, L1=1.3, L2=1.3, c1=1500, c2=1500)
+SPEED_BUMP = GaussianBump(height=0.05, sigma=0.3, centre=3.0)
+
+
+def test_the_problems_robot_keeps_its_way_and_its_speeds():
+    for robot in (ROBOT, Robot(793.2, 793.2, c1=0, c2=0), LOPSIDED):
+        for road in (BUMP, two_bumps, FlatRoad()):
+            explorer = explore(robot, road).explorer
+            speeds = explorer.ranges["v"]
+            assert (speeds.low, speeds.high) == (0.1, 25.0)
+            assert (explorer.distance, explorer.v) == (problem.DISTANCE, 1.2)
+
+
+@pytest.mark.parametrize("length", [0.01, 0.3, 1, 7, 1000])
+@pytest.mark.parametrize("frequency", [0.2, 1, 5])
+def test_a_scaled_robot_has_scaled_speeds_and_a_scaled_way(length, frequency):
+    """Lengths times `length`, rates times `frequency`: only to the next round number, of course."""
+    k = ROBOT.k1 * frequency**2
+    arms = {"L1": ROBOT.L1 * length, "L2": ROBOT.L2 * length, "Izz": ROBOT.Izz * length**2}
+    c = ROBOT.c1 * frequency
+    robot = Robot(k, k, **arms, c1=c, c2=c)
+    bump = GaussianBump(BUMP.height * length, BUMP.sigma * length, BUMP.centre * length)
+    family = Family(robot, bump)
+    low, high = family.speeds
+    assert high / low == pytest.approx(250)
+    assert 1 / 1.6 < low / (0.1 * length * frequency) < 1.6
+    assert 1 <= family.way / (1.2278 * length) * (1 + 1e-9) < 1.4
+    for name, value in family.own.items():
+        reach = family.ranges[name]
+        assert reach.low <= value <= reach.high
+        assert 1.5 * value <= reach.high <= 10.1 * value
+
+
+@pytest.mark.parametrize("centre", [0.3, 3.0, 40.0])
+@pytest.mark.parametrize("robot", [ROBOT, LOPSIDED, CAR])
+def test_the_way_passes_the_whole_bump_and_more(robot, centre):
+    bump = GaussianBump(height=0.05, sigma=0.3, centre=centre)
+    assert Family(robot, bump).way > centre + robot.L1 + 4 * bump.sigma + 6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bump", [SPEED_BUMP, replace(SPEED_BUMP, height=0.001)])
+def test_a_car_has_sensible_ranges_and_true_words(bump):
+    box = explore(CAR, bump)
+    explorer = box.explorer
+    speeds = explorer.ranges["v"]
+    assert speeds.low < 1 and 40 < speeds.high < 100
+    exact = critical_by_hand(CAR, bump, speeds, explorer.distance)
+    html = box.html()
+    np.testing.assert_allclose(explorer.facts["exact"]["critical"], exact, rtol=1e-3)
+    lost = "wheel leaves the ground" in re.search(r'alt="([^"]+)"', html)[1]
+    assert lost == (margin(CAR, bump, explorer.v, explorer.distance / explorer.v) < 0)
+    assert state_of(html)["facts"]["springEnd"] is None
+
+
+def critical_by_hand(robot, bump, speeds, distance):
+    """Where the sign of the margin turns, on a fine grid."""
+    v = np.geomspace(speeds.low, speeds.high, 300)
+    kept = np.array([margin(robot, bump, x, distance / x) > 0 for x in v])
+    turns = np.flatnonzero(kept[1:] != kept[:-1])
+    found = []
+    for i in turns:
+        low, high = v[i], v[i + 1]
+        while high / low > 1 + 1e-4:
+            middle = np.sqrt(low * high)
+            same = (margin(robot, bump, middle, distance / middle) > 0) == kept[i]
+            low, high = (middle, high) if same else (low, middle)
+        found.append(low)
+    return found
+
+
+def test_speeds_asked_for_are_in_reach_and_marked():
+    explorer = explore(ROBOT, BUMP, asked=(0.05, 40)).explorer
+    assert (explorer.ranges["v"].low, explorer.ranges["v"].high) == (0.05, 40)
+    assert explorer.facts["asked"] == (0.05, 40) and explore(ROBOT, BUMP).explorer.asked == ()
+    own = explore(ROBOT, BUMP, speeds=(2, 5), v=3).explorer.ranges["v"]
+    assert (own.low, own.high) == (2, 5)
 
 
 @pytest.mark.slow
 def test_a_road_that_is_no_bump_has_no_sliders_for_one():
     box = explore(ROBOT, two_bumps)
-    assert len(box.children[0].children) == 5
     assert "height" not in re.findall(r'data-trait="(\w+)"', box.html())
     with pytest.raises(ValueError, match="height and sigma must be left out"):
         explore(ROBOT, two_bumps, height=0.01)
@@ -245,12 +332,15 @@ def test_the_lines_of_python_reproduce_the_run(road, scheme):
         ("motion", "walking"),
         *[("time", value) for value in (-0.1, 1.1, np.nan)],
         *[("distance", value) for value in (0, np.inf)],
+        *[("speeds", value) for value in ((1, 2, 3), 5, (5, 1), (0, 1), (1, np.nan))],
+        *[("asked", value) for value in ([0], [np.nan], ["fast"])],
+        *[("spring_end", value) for value in (0, -1, np.nan)],
         ("scheme", "RK5"),
         ("view", "top"),
     ],
 )
 def test_a_bad_argument_is_refused_by_name(name, value):
-    with pytest.raises(ValueError, match=f"^{name} must "):
+    with pytest.raises(ValueError, match=rf"^{name}(\[[01]\])? must "):
         explore(ROBOT, BUMP, **{name: value})
 
 
@@ -286,6 +376,7 @@ def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     box = explore(ROBOT, BUMP, v=1.2)
     html = box._repr_mimebundle_()["text/html"]
     state = state_of(html)
+    assert '<div class="se-controls">' in html and "Run All" not in html
     assert state["v"] == 1.2 and state["facts"]["own"]["k"] == 793.2
     assert base64.b64decode(state["tables"]["road"]) == box.explorer.tables["road"]
     traits = re.findall(r'data-trait="(\w+)"', html)
@@ -297,6 +388,30 @@ def test_a_page_gets_controls_state_and_a_still_picture_with_a_text():
     assert unquote(source).startswith("data:image/svg+xml,<?xml")
     assert unquote(source).rstrip().endswith("</svg>")
     assert len(gzip.compress(html.encode())) < 110_000
+
+
+@pytest.mark.slow
+def test_a_notebook_gets_a_still_picture_that_says_what_to_run_and_then_the_widget():
+    shown = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("suspension.explorer.display", lambda data, **how: shown.append((data, how)))
+        explore(ROBOT, BUMP, compact=True).show("name")
+    (page, how), (widget, _) = shown
+    assert how["metadata"]["scrapbook"]["name"] == "name"
+    assert set(page) == {"text/html", "image/svg+xml"}
+    for text in page.values():
+        assert "run the notebook (Run &gt; Run All Cells)" in text
+    ElementTree.fromstring(page["image/svg+xml"])  # well-formed
+    assert '<div class="se-controls" hidden>' in page["text/html"]  # dead, they are not shown
+    view = "application/vnd.jupyter.widget-view+json"
+    assert widget[view]["model_id"] and widget["text/html"] == ""
+
+
+def test_what_to_run_stands_below_the_picture():
+    svg = '<svg width="10pt" height="20pt" viewBox="0 0 10 20"><g/></svg>'
+    grown = ElementTree.fromstring(picture(svg))
+    assert grown.get("height") == "44pt" and grown.get("viewBox") == "0 0 10 44"
+    assert 20 < float(grown[-1].get("y")) < 44 and "Run All Cells" in grown[-1].text
 
 
 @pytest.mark.slow
@@ -326,7 +441,9 @@ def test_flying_it_starts_where_a_wheel_is_highest_and_so_is_drawn():
     t = box.explorer.time * 1.25 / 5
     assert t == pytest.approx(flight.T[flight.gaps.max(axis=0).argmax()], abs=1e-9)
     linear.explorer.time = box.explorer.time
-    assert still(box.explorer) != still(linear.explorer)
+    for explorer in (box.explorer, linear.explorer):
+        explorer.know_critical_speeds()
+    assert draw(box.explorer) != draw(linear.explorer)
 
 
 def test_presets_become_buttons_that_the_page_can_set():
@@ -371,5 +488,5 @@ def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
 
 def test_what_a_page_has_to_load_is_small():
     scripts = page_script() + page_style()
-    assert len(gzip.compress(scripts.encode())) < 38_000
+    assert len(gzip.compress(scripts.encode())) < 42_000
     assert not re.search(r"^\s*(import|export)\b", page_script(), re.MULTILINE)

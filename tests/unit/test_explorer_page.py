@@ -136,6 +136,57 @@ def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
     assert switches > 30
 
 
+def test_the_pages_contact_law_is_what_python_says(tmp_path):
+    """A wheel that may pull until its spring is at its length leaves the ground later."""
+    explorer = explore(ROBOT, BUMP, v=5).explorer
+    setting = {**explorer.family.own, "v": 5.0, "dt": 0.001, "scheme_index": 3}
+    before = ask_page(tmp_path, explorer, "flight", [setting])[0]["events"]
+    model = explorer.facts["model"]
+    assert [c["of"] for c in model["contact"]["conditions"]] == [["Cp", "Dp"], ["C", "D"]]
+    conditions = [{"of": ["Cp", "Dp"], "strict": False}]
+    pulls = {"conditions": conditions, "force": 0, "length": 0}
+    explorer.facts = explorer.facts | {"model": model | {"contact": pulls}}
+    after = ask_page(tmp_path, explorer, "flight", [setting])[0]["events"]
+    first, later = (next(e["t"] for e in events if e["wheel"] == 1) for events in (before, after))
+    run = explorer.trajectory()
+    X = 5.0 * run.T + ROBOT.L2
+    spring = BUMP(X)[0] - run.W[0] - ROBOT.L2 * run.W[2]  # linear up to there: the first to leave
+    crossing = run.T[np.flatnonzero(spring < 0)[0]]
+    assert first + 0.002 < later == pytest.approx(crossing, abs=0.0015)
+
+
+def test_the_pages_exact_critical_speeds_are_pythons(tmp_path):
+    explorer = explore(ROBOT, BUMP).explorer
+    own = explorer.family.own | {"v": 1.0, "dt": 0.001, "scheme_index": 0}
+    explorer.know_critical_speeds()
+    there, elsewhere = ask_page(tmp_path, explorer, "curve", [own, own | {"k": own["k"] + 1}])
+    assert there["critical"] == explorer.facts["exact"]["critical"] != elsewhere["critical"]
+    np.testing.assert_allclose(there["critical"], critical_speeds(ROBOT, BUMP, 0.1, 25), rtol=1e-9)
+
+
+CAR = Robot(20000, 22000, m=1200, Izz=1800, L1=1.3, L2=1.3, c1=1500, c2=1500)
+
+
+def test_a_cars_page_computes_what_python_computes(tmp_path):
+    explorer = explore(CAR, GaussianBump(height=0.05, sigma=0.3, centre=3.0)).explorer
+    rng = np.random.default_rng(4)
+    settings = [
+        explorer.family.own | {"dt": 0.001, "scheme_index": 3, "v": v}
+        for v in (0.3, 3.0, 30.0, 45.0)
+    ] + list(random_settings(explorer, rng, 4))
+    for answer, setting in zip(ask_page(tmp_path, explorer, "curve", settings), settings):
+        robot, road = family_at(explorer, setting)
+        rest = robot.m * robot.g / 2
+        for v, found in list(zip(answer["speeds"], np.min(answer["least"], axis=0)))[::16]:
+            exact = margin(robot, road, v, explorer.distance / v)
+            assert found == pytest.approx(exact, abs=0.008 * rest), v
+    for answer, setting in zip(ask_page(tmp_path, explorer, "flight", settings[:4]), settings):
+        robot, road = family_at(explorer, setting)
+        flight = fly(robot, road, v=setting["v"], tfinal=explorer.distance / setting["v"])
+        events = [(event["wheel"] + 1, event["kind"]) for event in answer["events"]]
+        assert events == [(event.wheel, event.kind) for event in flight.events]
+
+
 @dataclass(frozen=True)
 class Linked(Robot):
     """A robot whose springs and dampers share their forces: another C and D, in Python alone."""

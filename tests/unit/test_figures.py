@@ -6,24 +6,31 @@ from itertools import pairwise
 import matplotlib
 import numpy as np
 import pytest
-from helpers import ROOT, near
+from helpers import ROOT, near, shaded
 from matplotlib import pyplot as plt
 
 import suspension.figures
+from suspension.contact import Regimes
+from suspension.energy import Energy
 from suspension.figures import (
     film,
     plot_all_forces,
+    plot_chart,
+    plot_comb,
     plot_confidence_region,
     plot_demand_map,
+    plot_energy,
     plot_errors,
     plot_experiments,
     plot_fit,
     plot_flight,
     plot_forces,
+    plot_free_wheels,
     plot_front,
     plot_gains,
     plot_growth,
     plot_heave,
+    plot_heaviest_wheel,
     plot_margin,
     plot_margin_map,
     plot_margins,
@@ -45,6 +52,8 @@ from suspension.figures import (
     plot_stop_regions,
     plot_stop_stiffness,
     plot_travel,
+    plot_vehicles,
+    plot_window,
 )
 from suspension.figures.layout import narrow
 from suspension.flight import fly
@@ -53,6 +62,7 @@ from suspension.robot import Robot
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
 from suspension.simulation import simulate
 from suspension.springs import fit_spring, load_spring_data
+from suspension.travel import Overtravel
 
 matplotlib.use("Agg")
 pytestmark = pytest.mark.filterwarnings("error")
@@ -67,6 +77,7 @@ LINEAR = simulate(ROBOT, BUMP, v=5, dt=0.0001, tfinal=0.25)
 V, K = np.geomspace(0.1, 30, 60), np.linspace(300, 1500, 20)
 FORCES = np.array([7 - 10 * np.sin(np.log(V)), 6 + np.cos(np.log(V))])
 CRITICAL = [0.5, 8.0]
+REGIMES = Regimes([V[0], *CRITICAL, V[-1]], [False, True, False])
 DTS = np.geomspace(1e-3, 0.1, 30)
 SEEN = {"RK4": np.full(30, -2 + 33j), "Euler": np.linspace(-1, 1, 30) + 30j}
 ERRORS = {"Euler": DTS, "RK4": DTS**4}
@@ -82,6 +93,13 @@ LAWS = {"line": 13 * T, "stop": 13 * T + 100 * np.maximum(T - 0.5, 0)}
 MARGINS = {"line": FORCES[0], "stop": FORCES[1] - 9}
 RUNS = {"line": (T, 0.01 * T, 9 - T), "stop": (T, 0.02 * T, 9 - 10 * T)}
 
+NU, ZETA = np.geomspace(0.05, 100, 60), np.geomspace(0.01, 0.2, 20)
+CHART = {0.0: 0.4 * NU, 0.03: 1 / NU**2 + NU * np.exp(-NU / 9), 0.4: 1 / NU**2 + 1e-3 / NU}
+PATHS = {
+    "car,\nhump": (NU[20:40], 0.6, NU[20:40] > 2),
+    "coach,\njoint": (NU[40:], 0.01, NU[40:] > 999),
+}
+
 ON_ONE = {
     "plot_fit": lambda ax: plot_fit(FIT, DATA, ax=ax),
     "plot_confidence_region": lambda ax: plot_confidence_region(FIT, ax=ax),
@@ -90,7 +108,15 @@ ON_ONE = {
     "plot_forces": lambda ax: plot_forces(LOST, ax),
     "plot_errors": lambda ax: plot_errors(DTS, ERRORS, ax),
     "plot_heave": lambda ax: plot_heave(V, HEAVE, ax),
-    "plot_margin": lambda ax: plot_margin(V, FORCES, CRITICAL, asked=[1.2], ax=ax),
+    "plot_margin": lambda ax: plot_margin(V, FORCES, REGIMES, asked=[1.2], ax=ax),
+    "plot_chart": lambda ax: plot_chart(
+        NU, CHART, {"skim": 9 / NU}, (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]), 0.03, ax=ax
+    ),
+    "plot_comb": lambda ax: plot_comb(NU, NU, NU / 2, 2 * NU, 1.1 * NU, ax),
+    "plot_vehicles": lambda ax: plot_vehicles(NU, CHART, PATHS, ax=ax),
+    "plot_window": lambda ax: plot_window(
+        ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
+    ),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
@@ -102,17 +128,28 @@ ON_ONE = {
         RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6), ax
     ),
     "plot_stop_stiffness": lambda ax: plot_stop_stiffness(
-        np.geomspace(1, 1e4, 9), {1.2: np.linspace(3, -300, 9)}, {"rubber": 10}, ax
+        np.geomspace(1, 1e4, 9),
+        {1.2: np.linspace(3, 300, 9)},
+        {1.2: T[:9] < 0.05},
+        {"rubber": 10},
+        ax,
     ),
     "plot_sensitivities": lambda ax: plot_sensitivities(CRITICAL, SENSITIVE, ax=ax),
     "plot_demand_map": lambda ax: plot_demand_map(
-        K, C, K / 100 - C[:, None], [-5, 0, 5], {"now": (800, 1.5)}, "margin (N)", ax
+        K, C, K / 100 - C[:, None], [-5, 0, 5], {"now": (800, 1.5)}, "margin (N)", ax=ax
     ),
-    "plot_front": lambda ax: plot_front(C / 100, C - 2, 1 + C, {"now": (0.02, 0)}, ax),
+    "plot_front": lambda ax: plot_front(C / 100, 1 + C, C - 2, {"now": (0.02, 2)}, ax),
     "plot_margins": lambda ax: plot_margins(V, {"now": FORCES[0], "then": FORCES[1]}, [1.2], ax),
     "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
     "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
+    "plot_free_wheels": lambda ax: plot_free_wheels(
+        {"relaxes": (T, 0.01 * T)}, {"1 g": (T, 0.02 * T), "0.1 g": (T, 0.015 * T)}, ax
+    ),
+    "plot_heaviest_wheel": lambda ax: plot_heaviest_wheel(
+        V, np.where(V < 0.5, np.inf, np.where(V < 8, 0, 0.1 / V)), [0.01], [1.2], ax
+    ),
+    "plot_energy": lambda ax: plot_energy(T, Energy(4 * T, T, T, 2 * T), [(0.2, 0.4)], ax),
     "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
 ON_TWO = {
@@ -134,8 +171,10 @@ PURE_NUMBERS = [r"$\delta/\delta_{\max}$", "normal quantile", "step $j$", "ampli
 PURE_NUMBERS += ["stop / spring stiffness $k_\\mathrm{s}/k$"]
 PURE_NUMBERS += ["time $t$", "$w$"]  # of an equation without a robot
 PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
+PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
+PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|N|mm|N/m|N s/m|m/s|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|m/s²|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -217,7 +256,7 @@ def test_two_wheels_differ_by_more_than_their_colour():
     _, axes = plt.subplots(2)
     for ax in (
         plot_forces(LOST),
-        plot_margin(V, FORCES, CRITICAL),
+        plot_margin(V, FORCES, REGIMES),
         *plot_flight(FLIGHT, LINEAR, axes),
     ):
         styles = {line.get_linestyle() for line in ax.lines if len(line.get_xdata()) > 10}
@@ -395,28 +434,28 @@ def test_a_missed_dip_is_in_the_close_up_between_two_steps():
 
 @pytest.mark.parametrize("critical", [[], [0.5], [0.5, 0.51, 8.0], [0.11, 29.0]])
 def test_a_margin_has_a_word_or_a_shade_for_every_range(critical):
-    N = np.array([np.sign(V - 0.5)] * 2) if critical == [0.5] else FORCES
-    ax = plot_margin(V, N, critical, asked=[1.2])
+    lost = [i % 2 for i in range(len(critical) + 1)]
+    ax = plot_margin(V, FORCES, Regimes([V[0], *critical, V[-1]], lost), asked=[1.2])
     words = [text.get_text() for text in ax.texts]
     assert {"lost", "kept"} & set(words)
     assert all(f"{speed:.3g}" in words for speed in critical)
-    assert ("critical speeds" in lines(ax)) == bool(critical)
+    assert ("critical speeds" in lines(ax)) == (len(critical) > 1)
+    assert ("critical speed" in lines(ax)) == (len(critical) == 1)
     ax.figure.canvas.draw()
 
 
-def test_contact_is_called_lost_where_the_margin_is_negative():
-    N = np.array([np.where(V < 1, -1.0, 2.0), np.full(len(V), 3.0)])
-    ax = plot_margin(V, N, [1.0])
-    words = {text.get_text(): text.get_position()[0] for text in ax.texts}
-    assert words["lost"] < 1 < words["kept"]
-    spans = [
-        patch.get_extents().transformed(ax.transData.inverted()).intervalx for patch in ax.patches
-    ]
-    near(spans, [[V[0], 1.0]], 1e-9)
+def test_what_is_shaded_and_called_lost_is_what_is_given():
+    """Whatever the samples say: between two of them a range can be missed."""
+    regimes = Regimes([V[0], 1.0, 1.001, V[-1]], [True, False, True])
+    ax = plot_margin(V, np.ones((2, len(V))), regimes)
+    places = [text.get_position()[0] for text in ax.texts if text.get_text() == "lost"]
+    assert len(places) == 2 and places[0] < 1 < places[1]
+    near(shaded(ax), [[V[0], 1.0], [1.001, V[-1]]], 1e-9)
 
 
 def test_close_critical_speeds_do_not_cover_each_other():
-    ax = plot_margin(V, FORCES, [5.0, 5.1, 5.2])
+    regimes = Regimes([V[0], 5.0, 5.1, 5.2, V[-1]], [False, True, False, True])
+    ax = plot_margin(V, FORCES, regimes)
     ax.figure.canvas.draw()
     boxes = [text.get_window_extent() for text in ax.texts if text.get_text()[0] == "5"]
     assert len(boxes) == 3
@@ -424,7 +463,9 @@ def test_close_critical_speeds_do_not_cover_each_other():
 
 
 def test_ranges_beyond_the_measured_spring_are_hatched_and_named_once():
-    ax = plot_margin(V, FORCES, CRITICAL, beyond=[[0.3, 0.4], [0.7, 30]])
+    ax = plot_margin(
+        V, FORCES, REGIMES, beyond=[Overtravel(0.3, 0.4, 1.1), Overtravel(0.7, 30, 2.0)]
+    )
     hatched = [patch for patch in ax.patches if patch.get_hatch()]
     assert len(hatched) == 2
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -486,14 +527,33 @@ def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
 
 
 def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
-    marks = {"now": (800, 1.5), "then": (400, 2)}
-    ax = plot_demand_map(K, C, K / 100 - C[:, None] - 3, [-5, 0, 5], marks, "margin (N)")
+    marks, values = {"now": (800, 1.5), "then": (400, 2)}, K / 100 - C[:, None] - 3
+    ax = plot_demand_map(K, C, 9 + values, [0, 5, 9], marks, "acceleration (m/s²)", values)
     drawn = lines(ax)
     for name, place in marks.items():
         near(np.ravel(drawn[name].get_xydata()), place, 1e-15)
-    assert title(ax) == "margin (N)"
-    without = plot_demand_map(K, C, K / 100 + C[:, None], [1, 5, 9], {}, "compression (mm)")
+    assert title(ax) == "acceleration (m/s²)"
+    k, c = ax.collections[-1].get_paths()[0].vertices.T
+    near(k / 100, c + 3, 0.02)
+    without = plot_demand_map(K, C, values, [1, 5, 9], {}, "compression (mm)", 1 + 0 * values)
     assert len(without.collections) < len(ax.collections)
+
+
+def test_best_compromises_that_lose_contact_are_rings():
+    margin = np.where(C > 2, C, 0.0)
+    ax = plot_front(C / 100, 1 + C, margin, {"now": (0.02, 2)})
+    rings, dots = ax.lines[0], ax.collections[0]
+    near(rings.get_xdata(), 10 * C[margin == 0], 1e-15)
+    near(dots.get_offsets()[:, 0], 10 * C[margin > 0], 1e-15)
+    near(dots.get_array(), margin[margin > 0], 1e-15)
+
+
+def test_stops_that_take_contact_are_open():
+    ratio, felt = np.geomspace(1, 100, 3), np.array([5.0, 9.0, 40.0])
+    ax = plot_stop_stiffness(ratio, {1.2: felt}, {1.2: [True, False, False]}, {})
+    kept, lost = (line for line in ax.lines if line.get_linestyle() == "None")
+    assert list(kept.get_ydata()) == [5] and list(lost.get_ydata()) == [9, 40]
+    assert lost.get_markerfacecolor() == "white" != kept.get_markerfacecolor()
 
 
 def test_a_rough_ride_is_shaded_where_a_wheel_is_in_the_air():
@@ -531,3 +591,44 @@ def test_the_regions_say_which_steps_are_stable():
     ax = plot_stop_regions(RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6))
     said = [name for name in lines(ax) if "Delta t" in name]
     assert ["unstable" in name for name in said] == [False, True]
+
+
+def test_a_chart_marks_what_is_asked_by_its_verdict_and_shades_what_is_lost():
+    ax = plot_chart(
+        NU,
+        CHART,
+        {"follow": 1 / NU**2},
+        (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]),
+        own=0.03,
+    )
+    drawn = lines(ax)
+    near(drawn["asked, kept"].get_xydata(), [[1, 2.8]], 1e-15)
+    near(drawn["asked, lost"].get_xydata(), [[2, 2.8]], 1e-15)
+    thick = max(ax.lines, key=lambda line: line.get_linewidth())
+    near(thick.get_xydata(), [[0.05, 2.8], [1.5, 2.8]], 1e-15)
+    shaded = ax.collections[0].get_paths()[0].vertices
+    assert shaded[:, 1].max() == ax.get_ylim()[1]
+    assert shaded[:, 1].min() == pytest.approx(CHART[0.03].min(), rel=1e-12)
+    words = [text.get_text().strip() for text in ax.texts]
+    assert {"undamped", r"$\zeta$ = 0.03", r"$\zeta$ = 0.4", "follow", "contact lost"} <= set(words)
+
+
+def test_a_limit_is_named_along_its_line():
+    ax = plot_chart(NU, {0.03: CHART[0.03]}, {"follow": 1 / NU**2, "throw": NU / 2.5})
+    turned = {text.get_text(): text.get_rotation() for text in ax.texts}
+    assert 290 < turned["follow"] < 330 and 0 < turned["throw"] < 60
+
+
+def test_a_vehicle_is_drawn_apart_where_it_loses_contact():
+    ax = plot_vehicles(NU, CHART, {"car": PATHS["car,\nhump"]})
+    kept, lost = (line.get_xydata() for line in ax.lines[3:5])
+    assert not (np.isfinite(kept[:, 1]) & np.isfinite(lost[:, 1])).any()
+    assert (kept[np.isfinite(lost[:, 1]), 0] > 2).all()
+
+
+def test_names_of_vehicles_of_nearly_one_height_stand_on_two_sides():
+    ax = plot_vehicles(
+        NU, CHART, {"a": (NU[9:20], 0.5, NU[9:20] > 9), "b": (NU[9:20], 0.52, NU[9:20] > 9)}
+    )
+    sides = [text.get_ha() for text in ax.texts if text.get_text() in "ab"]
+    assert sorted(sides) == ["left", "right"]

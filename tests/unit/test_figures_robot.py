@@ -172,3 +172,17 @@ def test_no_word_of_the_states_is_cut_off_or_covered(layout):
     assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if one.overlaps(other)]
     width = ax.figure.bbox
     assert all(width.containsx(box.x0) and width.containsx(box.x1) for box in boxes)
+
+
+@pytest.mark.parametrize("size", [1, 12])
+def test_a_robot_of_any_size_is_seen_whole(size):
+    """A car that is twelve times as long is drawn like the robot, twelve times as large."""
+    robot = Robot(800, 800, L1=0.1 * size, L2=0.1 * size)
+    drawing = RobotDrawing(plt.subplots()[1], robot, FlatRoad())
+    drawing.ground(-0.3 * size, 0.3 * size)
+    drawing.update(np.zeros(4), 0.0)
+    bottom, top = drawing.ax.get_ylim()
+    assert drawing.line.get_ydata() == pytest.approx(0.056 * size)
+    assert bottom < 0 < 0.056 * size < 0.9 * top
+    spring = np.asarray(drawing.springs[0].get_xdata())
+    assert np.ptp(spring) == pytest.approx(2 * 0.12 * 0.056 * size)

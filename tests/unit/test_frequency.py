@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from suspension.frequency import response, rms, spectral_rms, steady_start
+from suspension.frequency import response, rms, spectral_rms, speed_in_step, steady_start
 from suspension.road import ISO_8608, RoughRoad
 from suspension.robot import Robot
 from suspension.schemes import Scheme
@@ -82,6 +82,60 @@ def test_an_undamped_robot_has_no_answer_at_its_own_frequency():
         response(replace(robot, k1=8, k2=8, m=4, L1=1, L2=1, Izz=4), 1 / (2 * np.pi), [2.0])
 
 
+@pytest.mark.parametrize("robot", [Robot(800, 800), Robot(900, 500, L1=0.09, L2=0.12)])
+@pytest.mark.parametrize("v", [0.3, 1.2, -7])
+def test_nor_within_roundoff_of_it(robot, v):
+    robot = replace(robot, c1=0, c2=0)
+    for omega in np.unique(np.abs(robot.eigenvalues.imag).round(9)):
+        (exact,) = {abs(x.imag) for x in robot.eigenvalues if abs(x.imag - omega) < 1e-8}
+        n = exact / (2 * np.pi * v)
+        for beside in (n, n * (1 + 1e-15), n * (1 - 1e-13)):
+            with pytest.raises(ValueError, match="^v and wavenumber .* undamped modes, got v="):
+                response(robot, v, [1.0, beside])
+        assert np.isfinite(response(robot, v, [n * (1 + 1e-9)]).state).all()
+        band = 1.01 / abs(n), 0.99 / abs(n)
+        with pytest.raises(ValueError, match="^robot must have damping, or longest and shortest"):
+            spectral_rms(robot, v, 1e-5, *band)
+        damped = replace(robot, c1=1e-3, c2=1e-3)
+        assert spectral_rms(damped, v, 1e-5, *band).force.max() > 1
+
+
+def test_an_undamped_robot_has_a_spread_off_its_own_frequencies():
+    robot = Robot(800, 800, c1=0, c2=0)
+    nearly = replace(robot, c1=1e-9, c2=1e-9)
+    found, expected = (spectral_rms(x, 1.2, 1e-5, 0.15, 0.1) for x in (robot, nearly))
+    np.testing.assert_allclose(found.force, expected.force, rtol=1e-6)
+
+
+@pytest.mark.parametrize("c", [5e-3, 0.05, 1.5, 200])
+def test_the_integral_holds_however_sharp_the_resonance(c):
+    robot, v, band = Robot(800, 700, c1=c, c2=2 * c), 1.2, (0.3, 0.15)
+    # Steps of less than half the sharpest resonance, for which a trapezoidal rule is exact.
+    x, step = np.linspace(*-np.log(band), 20001, retstep=True)
+    n = np.exp(x)
+    density = np.abs(response(robot, v, n).force[0]) ** 2 * 1e-5 * (0.1 / n) ** 2 * n
+    exact = step * (density.sum() - density[[0, -1]].sum() / 2)
+    for points in (2, 200, 20000):
+        found = spectral_rms(robot, v, 1e-5, *band, points=points).force[0]
+        assert found == pytest.approx(np.sqrt(exact), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    "function, arguments, names",
+    [
+        (response, (1e308, [1]), "v and wavenumber"),
+        (response, (1, [1e300]), "v and wavenumber"),
+        (spectral_rms, (1, 1e-5, 1e300, 1e-300), "longest|wavenumber"),
+        (spectral_rms, (1, 1e308, 20, 0.1), "roughness"),
+        (rms, (RoughRoad(1e305), 1), "road"),
+        (rms, (ROAD, 1e200), "v"),
+    ],
+)
+def test_an_overflow_is_refused_by_name_and_without_a_warning(function, arguments, names):
+    with pytest.raises(ValueError, match=names):
+        function(ROBOTS["symmetric"], *arguments)
+
+
 @each_robot
 @each_speed
 def test_a_ride_from_the_steady_start_is_periodic(robot, v):
@@ -127,3 +181,13 @@ def test_roughness_scales_everything():
     one, four = (rms(ROBOTS["symmetric"], replace(ROAD, roughness=r), 2) for r in (1e-5, 4e-5))
     np.testing.assert_allclose(four.force, 2 * one.force)
     np.testing.assert_allclose(four.pitch, 2 * one.pitch)
+
+
+def test_at_the_speed_in_step_the_wheels_are_one_heave_period_apart():
+    robot = Robot(800, 800, c1=0, c2=0)
+    period = 2 * np.pi / np.sqrt(2 * robot.k1 / robot.m)
+    assert speed_in_step(robot) == pytest.approx((robot.L1 + robot.L2) / period)
+    assert speed_in_step(replace(robot, Izz=0.1)) == pytest.approx(speed_in_step(robot))
+    assert speed_in_step(ROBOTS["overdamped"]) is None
+    with pytest.raises(TypeError, match="robot"):
+        speed_in_step(800)

@@ -20,7 +20,7 @@ from suspension.simulation import Trajectory
 
 CONTRACT = (
     "Robot GaussianBump FlatRoad Scheme EULER BACKWARD_EULER CRANK_NICOLSON RK4 "
-    "simulate over_bump margin critical_speeds fly explore __version__"
+    "simulate over_bump margin critical_speeds regimes highest_bump fly explore __version__"
 ).split()
 HEAVY = ["pandas", "statsmodels", "matplotlib", "IPython", "ipywidgets", "anywidget"]
 ASK = """

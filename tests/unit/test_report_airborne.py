@@ -1,4 +1,4 @@
-"""Sentences of Part VI, for springs and robots of every kind."""
+"""Sentences of Part VII, for springs and robots of every kind."""
 
 from functools import cache
 
@@ -11,7 +11,7 @@ from suspension.report import airborne as part
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
-from suspension.travel import moments, travel
+from suspension.travel import Moment, moments, travel
 
 BUMP = GaussianBump()
 ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
@@ -39,7 +39,8 @@ def test_sentences_about_flights_are_sound(name):
     linear = {v: simulate(robot, BUMP, v=v, dt=1e-3, tfinal=1) for v in SPEEDS}
     pressing = {v: travel(robot, BUMP, v).pitch for v in SPEEDS}
     told = moments(runs[1.2], robot, BUMP)
-    assert list(told) == sorted(told) and len(told) >= 3
+    times = [moment.t for moment in told]
+    assert times == sorted(times) and len(told) >= 3
     texts = [
         part.flight_table(runs.values(), robot),
         part.who_flies(runs, linear),
@@ -50,6 +51,26 @@ def test_sentences_about_flights_are_sound(name):
     ]
     for text in texts:
         assert not faults(text)
+
+
+@pytest.mark.parametrize(
+    ("moment", "words"),
+    [
+        (Moment("foot", 2, 0.1), "the front wheel reaches the bump (0.100 s)."),
+        (Moment("top", 1, 0.1), "the rear wheel is on its top (0.100 s)."),
+        (Moment("top", None, 0.1), "the body is over it (0.100 s)."),
+        (Moment("past", None, 0.1), "both have passed (0.100 s)."),
+        (Moment("lift-off", 1, 0.1), "the rear wheel lifts off (0.100 s). A wheel in the air"),
+        (Moment("apex", 1, 0.1), "it is at the top of this flight (0.100 s)."),
+        (Moment("landing", 1, 0.1), "it lands (0.100 s)."),
+        (Moment("highest", 2, 0.1), "the front wheel is at its highest (0.100 s)."),
+    ],
+)
+def test_every_moment_has_its_words(moment, words):
+    caption = part.film_caption(1.2, [moment])
+    assert f"in true proportions: {words}" in plain(caption.text)
+    assert ("in the air" in caption.text) == (moment.kind == "lift-off")
+    assert plain(caption.alt).startswith("One frame of the robot at 1.2 m/s")
 
 
 @pytest.mark.slow

@@ -1,12 +1,14 @@
 """Sentences and rows about the data, for springs of every kind."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from suspension import problem
 from suspension.branches import End
 from suspension.report import data as words
 from suspension.report import table
@@ -109,6 +111,25 @@ def test_what_the_reader_noticed_is_told():
 def test_a_column_has_the_decimals_it_needs(values, decimals):
     rows = words.data_rows(pd.DataFrame({"delta_over_delta_max": values, "force": values}))
     assert " ".join(row["force (N)"] for row in rows) == decimals
+
+
+def test_the_facts_of_the_book_are_those_that_are_computed_with():
+    fit = fit_spring(SPRINGS["k = 793"])
+    table_1 = problem.TABLE_1 | {"m": 2.5, "c2": 0.75}
+    rows = {row["symbol"]: row["value"] for row in words.robot_rows(table_1, fit)}
+    assert rows["$m$"] == "2.5\u00a0kg" and rows["$c_2$"] == "0.75\u00a0N s/m"
+    assert float(rows["$k_1 = k_2$"].split("\u00a0")[0]) == pytest.approx(fit.stiffness, abs=0.05)
+    assert len(rows) == len(table_1) + 1
+    bump = replace(problem.BUMP, height=0.01, centre=-0.2)
+    rows = {row["symbol"]: row["value"] for row in words.bump_rows(bump)}
+    assert rows == {
+        "$h_0$": "0.01\u00a0m",
+        r"$\sigma$": f"{problem.BUMP.sigma}\u00a0m",
+        "$x_0$": "−0.2\u00a0m",
+    }
+    rows = words.question_rows((0.5, 20), (0.1,), (0.2, 0.1), 3.0, 2.0)
+    told = ["0.5 and 20\u00a0m/s", "0.1\u00a0s", "0.2 and 0.1\u00a0s", "3\u00a0s", "2\u00a0m"]
+    assert [row["value"] for row in rows] == told
 
 
 # --- which stiffness --------------------------------------------------------------------------

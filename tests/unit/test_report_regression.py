@@ -1,9 +1,15 @@
 """Sentences of Part I, for springs of every kind."""
 
+import re
+
+import numpy as np
+import pandas as pd
 import pytest
-from cases import STIFFNESSES, faults, fitted, prose
+from cases import STIFFNESSES, faults, fitted, loading_and_unloading, prose
 
 from suspension.report import regression
+from suspension.report.data import caution
+from suspension.springs import fit_spring
 
 FITS = {f"k = {k}": {"stiffness": k} for k in STIFFNESSES} | {
     "preload": {"stiffness": 800, "preload": 1.5},
@@ -15,6 +21,29 @@ FITS = {f"k = {k}": {"stiffness": k} for k in STIFFNESSES} | {
     "noisy": {"stiffness": 800, "noise": 2.0},
     "four readings": {"stiffness": 800, "points": 4},
     "five readings": {"stiffness": 800, "points": 5},
+}
+
+
+def fit_of(force, x):
+    return fit_spring(pd.DataFrame({"delta_over_delta_max": x, "force": force}))
+
+
+def both_ways(sort=False):
+    """Loading, then unloading; or the same readings in the order of their displacements."""
+    force, x = loading_and_unloading()
+    order = np.argsort(x, kind="stable") if sort else slice(None)
+    return fit_of(force[order], x[order])
+
+
+def three_places():
+    x = np.repeat([0, 0.5, 1], 5)
+    return fit_of(13.2 * x + np.random.default_rng(4).normal(0, 0.1, x.size), x)
+
+
+UNUSUAL = {
+    "both ways": both_ways(),
+    "taking turns": both_ways(sort=True),
+    "three displacements": three_places(),
 }
 SENTENCES = (
     regression.coefficients,
@@ -28,9 +57,11 @@ SENTENCES = (
 CAPTIONS = (regression.fit_figure, regression.ellipse_figure, regression.residuals_figure)
 
 
-@pytest.fixture(scope="module", params=FITS.values(), ids=FITS)
+@pytest.fixture(scope="module", params=[*FITS, *UNUSUAL])
 def fit(request):
-    return fitted(**request.param)
+    if request.param in UNUSUAL:
+        return UNUSUAL[request.param]
+    return fitted(**FITS[request.param])
 
 
 @pytest.mark.parametrize("sentence", SENTENCES)
@@ -95,6 +126,66 @@ def test_the_answers_hold_the_fit():
 )
 def test_the_alt_text_describes_the_curve(curvature, shape):
     assert shape in regression.fit_figure(fitted(800, curvature=curvature)).alt
+
+
+def test_three_displacements_cannot_be_tried_for_a_cubic_term():
+    text = regression.residuals(UNUSUAL["three displacements"])
+    assert "The readings stand at three displacements" in text
+    assert "a cubic term cannot be tried" in text and "would be" not in text
+    near = np.array([0, 0.5, 0.5 + 1e-12, 1, 1])
+    text = regression.residuals(fit_of(13 * near + [0.1, -0.1, 0, 0.05, -0.02], near))
+    assert "too near to each other for a cubic term" in text
+
+
+def test_readings_on_a_curve_say_nothing_of_the_error():
+    for how in ({}, {"curvature": 4.0}):
+        fit = fitted(800, noise=0.0, **how)
+        assert "goes through every reading" in regression.residuals(fit)
+        assert "cubic" not in regression.residuals(fit)
+        assert "they do not say how well it is known" in regression.summary(fit)
+        assert "±" not in regression.summary(fit)
+
+
+def believed(fit):
+    """What rests on independent errors, and says so where the residuals contradict them."""
+    sentences = regression.stiffness, regression.joint_intervals, regression.linearity
+    return {
+        f.__name__: "cannot be relied on" not in f(fit) for f in (*sentences, regression.summary)
+    }
+
+
+@pytest.mark.parametrize("kind", ["both ways", "taking turns"])
+def test_what_the_residuals_contradict_is_not_told_as_known(kind):
+    fit = UNUSUAL[kind]
+    assert not any(believed(fit).values())
+    assert "known to about" not in regression.summary(fit)
+    assert f"with {fit.neighbours.correlation:.2f}".replace("-", "−") in caution(fit)
+    text = regression.residuals(fit)
+    assert "**outside**" in text and "cannot be relied on" in text
+    assert ("stand together" in text, "take turns" in text) == (
+        (True, False) if kind == "both ways" else (False, True)
+    )
+
+
+def test_how_much_wider_is_told_where_errors_may_wander():
+    fit = UNUSUAL["both ways"]
+    times = float(re.search(r"must be ([\d.]+) times as wide", regression.residuals(fit))[1])
+    assert times == pytest.approx(fit.neighbours.widening, rel=0.05)
+    assert "times as wide" not in regression.residuals(UNUSUAL["taking turns"])
+
+
+@pytest.mark.parametrize("how", [{}, {"curvature": 4.0}, {"noise": 0.0}, {"points": 4}])
+def test_nothing_is_doubted_without_a_reason(how):
+    fit = fitted(800, **how)
+    assert all(believed(fit).values()) and caution(fit) == ""
+    assert "cannot be relied on" not in regression.residuals(fit)
+
+
+def test_the_caution_names_its_subject():
+    fit = UNUSUAL["both ways"]
+    assert caution(fit).startswith("The interval supposes independent errors")
+    assert "they cannot be relied on" in caution(fit, "The intervals")
+    assert "it cannot be relied on" in caution(fit, "The F test")
 
 
 def test_residuals_of_too_few_readings_say_so():

@@ -1,4 +1,4 @@
-"""Sentences of Part IV, for springs and robots of every kind."""
+"""Sentences of Part V, for springs and robots of every kind."""
 
 import numpy as np
 import pytest

@@ -204,3 +204,19 @@ def test_eigenvectors_stand_in_the_order_of_the_eigenvalues():
     product = robot.A @ robot.eigenvectors
     np.testing.assert_allclose(product, robot.eigenvectors * robot.eigenvalues, atol=1e-10)
     assert np.linalg.matrix_rank(robot.eigenvectors) == 4
+
+
+@pytest.mark.parametrize("k, m", [(800, 1.456), (30, 7.0)])
+def test_modes_of_a_symmetric_robot_are_all_heave_or_all_pitch(k, m):
+    robot = Robot(k, k, m=m)
+    heave = np.isclose(np.abs(robot.eigenvalues) ** 2, 2 * k / m)
+    assert heave.sum() == 2
+    assert robot.heave_share == pytest.approx(heave.astype(float))
+
+
+@quick
+@given(robot=ROBOTS)
+def test_the_share_of_heave_is_a_share_from_either_side(robot):
+    assert ((robot.heave_share >= 0) & (robot.heave_share <= 1)).all()
+    if np.min(np.abs(np.subtract.outer(robot.eigenvalues, robot.eigenvalues) + np.eye(4))) > 1e-3:
+        assert np.allclose(mirrored(robot).heave_share, robot.heave_share, atol=1e-6)

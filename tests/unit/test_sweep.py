@@ -10,7 +10,7 @@ from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import BACKWARD_EULER, CRANK_NICOLSON, EULER, RK4
 from suspension.simulation import simulate
-from suspension.sweep import MAX_STEPS, peaks, sweep
+from suspension.sweep import MAX_STEPS, sweep
 
 BUMP = GaussianBump()
 ROBOTS = [
@@ -121,24 +121,3 @@ def test_a_bad_argument_is_refused_by_name(name, value):
     robots, road, v = (arguments.pop(key) for key in ("robots", "road", "v"))
     with pytest.raises((ValueError, TypeError), match=f"^{name} must "):
         sweep(robots, road, v, **arguments)
-
-
-def test_peaks_are_those_of_simulate():
-    v = np.array([0.25, 1.2, 10])
-    found = peaks(np.array(ROBOTS)[:, None], BUMP, v, steps=800)
-    np.testing.assert_allclose(
-        found.force, sweep(np.array(ROBOTS)[:, None], BUMP, v, steps=800), rtol=1e-12
-    )
-    for i, j in np.ndindex(3, 3):
-        robot, dt = ROBOTS[i], 1.25 / (v[j] * 800)
-        run = simulate(robot, BUMP, v=v[j], dt=dt, tfinal=800 * dt)
-        acceleration = np.abs(run.N.sum(axis=0) / robot.m - robot.g).max()
-        x = np.add.outer(robot.arms, v[j] * run.T)
-        compression = BUMP(x)[0] - run.W[0] - robot.arms[:, None] * run.W[2]
-        np.testing.assert_allclose(found.acceleration[i, j], acceleration, rtol=1e-9)
-        np.testing.assert_allclose(found.compression[i, j], compression.max(axis=1), rtol=1e-9)
-
-
-def test_peaks_of_nothing_are_empty():
-    found = peaks(ROBOTS[0], BUMP, [], steps=50)
-    assert found.force.shape == (0, 2) and found.acceleration.shape == (0,)

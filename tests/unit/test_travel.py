@@ -66,15 +66,20 @@ def test_overtravel_splits_the_speeds_where_the_limit_is_passed(robot, limit):
     ranges = overtravel(robot, BUMP, limit, 0.3, 15)
     speeds = np.geomspace(0.3001, 14.99, 50)
     beyond = [travel(robot, BUMP, v).compression > limit for v in speeds]
-    inside = [any(low < v < high for low, high in ranges) for v in speeds]
+    inside = [any(found.low < v < found.high for found in ranges) for v in speeds]
     assert inside == beyond
-    assert all(high < low for (_, high), (low, _) in pairwise(ranges))
+    assert all(before.high < after.low for before, after in pairwise(ranges))
+    for found in ranges:
+        within = np.geomspace(found.low, found.high, 60)[1:-1]
+        most = max(travel(robot, BUMP, v).compression for v in within) / limit
+        assert found.times == pytest.approx(most, rel=0.01) and found.times > 1
 
 
 @pytest.mark.slow
 def test_overtravel_is_none_or_all_where_the_limit_is_out_of_reach():
-    assert overtravel(ROBOT, BUMP, 1.0, 1, 3).shape == (0, 2)
-    near(overtravel(ROBOT, BUMP, 1e-4, 1, 3), [[1, 3]], 1e-12)
+    assert overtravel(ROBOT, BUMP, 1.0, 1, 3) == ()
+    (found,) = overtravel(ROBOT, BUMP, 1e-4, 1, 3)
+    near(found[:2], [1, 3], 1e-12)
 
 
 @pytest.mark.parametrize("v", [0.25, 1.2, 5, 10])
@@ -95,28 +100,61 @@ def test_without_dampers_the_spring_is_all():
     assert balance(undamped, BUMP, 1.2).damper == pytest.approx(0, abs=1e-11)
 
 
+@pytest.mark.parametrize("robot", [ROBOT, LOPSIDED], ids=["symmetric", "lopsided"])
+@pytest.mark.parametrize("v", [0.3, 0.4366, 5, 20.43])
+def test_a_spring_that_still_pushes_at_the_least_force_is_pulled_by_its_damper(robot, v):
+    found = balance(robot, BUMP, v)
+    rear = robot.m * robot.g * robot.L2 / (robot.L1 + robot.L2)
+    assert found.rest == pytest.approx([rear, robot.m * robot.g - rear][found.wheel - 1])
+    assert found.pulled == (found.spring > found.rest / 7)
+
+
+def test_whether_the_damper_pulls_does_not_depend_on_the_size_of_the_robot():
+    for factor in (1e-3, 1, 1e3):
+        sizes = {
+            name: factor * getattr(ROBOT, name) for name in ("k1", "k2", "m", "Izz", "c1", "c2")
+        }
+        robot = replace(ROBOT, **sizes)
+        assert not balance(robot, BUMP, 0.4367).pulled and balance(robot, BUMP, 20.42).pulled
+
+
 def test_the_moments_of_a_flight_are_told_in_order_and_are_those_of_its_events():
     flight = fly(ROBOT, BUMP, v=5, tfinal=0.25)
     told = moments(flight, ROBOT, BUMP)
-    times = list(told)
-    assert times == sorted(times) and len(set(told.values())) == len(told)
-    assert flight.events[0].t in told
-    landing = next(
-        event
-        for event in flight.events
-        if event.kind == "landing" and event.wheel == flight.events[0].wheel
-    )
-    assert told[landing.t] == "it lands"
-    _, highest = np.unravel_index(flight.gaps.argmax(), flight.gaps.shape)
-    assert flight.T[highest] in told
+    times = [moment.t for moment in told]
+    assert times == sorted(times) and len(set(told)) == len(told)
+    at = {moment.kind: moment for moment in told}
+    first = flight.events[0]
+    assert at["lift-off"] == ("lift-off", first.wheel, first.t)
+    landing = next(e for e in flight.events if (e.kind, e.wheel) == ("landing", first.wheel))
+    assert at["landing"] == ("landing", first.wheel, landing.t)
+    assert first.t < at["apex"].t < landing.t
+    i, highest = np.unravel_index(flight.gaps.argmax(), flight.gaps.shape)
+    assert any(t == flight.T[highest] for t in times)
+    if at["apex"].t != flight.T[highest]:
+        assert at["highest"].wheel == i + 1
     assert all(0 <= t <= flight.T[-1] for t in times)
+
+
+def test_the_story_of_a_flight_ends_with_the_way():
+    flight = fly(ROBOT, BUMP, v=5, tfinal=0.25)
+    landing = next(m.t for m in moments(flight, ROBOT, BUMP) if m.kind == "landing")
+    told = moments(flight, ROBOT, BUMP, distance=0.99 * 5 * landing)
+    assert "landing" not in [moment.kind for moment in told]
+    assert all(moment.t < landing for moment in told)
+    with pytest.raises(ValueError, match="flight's v must be a finite number > 0"):
+        moments(fly(ROBOT, BUMP, v=0, tfinal=0.25), ROBOT, BUMP)
 
 
 @pytest.mark.slow
 def test_the_moments_without_a_flight_are_the_wheels_on_the_bump():
     v = critical_speeds(ROBOT, BUMP, 0.3, 0.6)[0] / 2
     told = moments(fly(ROBOT, BUMP, v=v, tfinal=1.25 / v), ROBOT, BUMP)
-    at = {words: v * t for t, words in told.items()}
-    assert at["the front wheel is on its top"] + ROBOT.L2 == pytest.approx(BUMP.centre)
-    assert at["the rear wheel is on its top"] - ROBOT.L1 == pytest.approx(BUMP.centre)
-    assert list(told) == sorted(told)
+    arms = {2: ROBOT.L2, None: 0, 1: -ROBOT.L1}
+    top = {moment.wheel: v * moment.t for moment in told if moment.kind == "top"}
+    assert list(top) == [2, None, 1]
+    for wheel, arm in arms.items():
+        assert top[wheel] + arm == pytest.approx(BUMP.centre)
+    assert told[-1][:2] == ("past", None)
+    assert v * told[-1].t - ROBOT.L1 == pytest.approx(BUMP.centre + 2 * BUMP.sigma)
+    assert [moment.t for moment in told] == sorted(moment.t for moment in told)

@@ -15,7 +15,6 @@ from suspension.uncertainty import (
     critical_speed_intervals,
     critical_speeds_by_stiffness,
     loss_probability,
-    stiffness_distribution,
 )
 
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
@@ -75,7 +74,7 @@ def test_branches_are_the_critical_speeds_at_every_stiffness(k, half, vmin, vmax
         alive = [
             i
             for i, c in enumerate(found)
-            if (c.exists_from or low) <= stiffness <= (c.exists_to or high)
+            if (c.born.k if c.born else low) <= stiffness <= (c.dies.k if c.dies else high)
         ]
         assert len(alive) == len(expected), f"at k = {stiffness}"
         for i, v in zip(alive, expected):
@@ -93,9 +92,9 @@ def test_branches_are_the_critical_speeds_at_every_stiffness(k, half, vmin, vmax
 def test_a_pair_vanishes_where_the_search_at_one_stiffness_finds_it_no_more():
     found = intervals(986.7, 37, *SLOW)
     first, second, third = found
-    assert first.everywhere and first.exists_from is None and first.exists_to is None
+    assert first.everywhere and first.born is None and first.dies is None
     assert second.dies == third.dies and second.dies.why == "pair"
-    end = second.exists_to
+    end = second.dies.k
     assert end == pytest.approx(990.54, abs=0.01)
     assert len(speeds_at(end - 0.01, *SLOW)) == 3 and len(speeds_at(end + 0.02, *SLOW)) == 1
     assert second.low < second.speed < second.high <= second.dies.v * (1 + 1e-5)
@@ -107,8 +106,8 @@ def test_a_pair_vanishes_where_the_search_at_one_stiffness_finds_it_no_more():
 def test_a_pair_that_is_not_there_at_the_estimate_is_reported():
     found = intervals(1000, 300, *SLOW)
     assert [c.speed is None for c in found] == [False, True, True]
-    assert found[1].exists_to == found[2].exists_to == pytest.approx(990.54, abs=0.01)
-    assert found[1].exists_from is not None and found[2].exists_from is None
+    assert found[1].dies.k == found[2].dies.k == pytest.approx(990.54, abs=0.01)
+    assert found[1].born and found[2].born is None
 
 
 @pytest.mark.slow
@@ -117,7 +116,7 @@ def test_a_pair_is_born():
     born = [c for c in found if c.born is not None]
     assert len(born) == 2
     for c in born:
-        assert c.exists_from == pytest.approx(906.05, abs=0.01)
+        assert c.born.k == pytest.approx(906.05, abs=0.01)
         assert c.born.v == pytest.approx(0.40646, abs=1e-5)
     assert born[0].low < born[0].born.v == born[1].low < born[1].high
 
@@ -127,7 +126,7 @@ def test_a_critical_speed_that_leaves_the_range_says_where():
     (only,) = intervals(600, 100, 5.2, 8.0)
     assert only.born is not None and only.born.why == "range" and only.dies is None
     assert only.low == only.born.v == pytest.approx(5.2, rel=1e-14)
-    assert margin(robot_at(only.exists_from), BUMP, 5.2) == pytest.approx(0, abs=1e-6)
+    assert margin(robot_at(only.born.k), BUMP, 5.2) == pytest.approx(0, abs=1e-6)
 
 
 @pytest.mark.slow
@@ -175,14 +174,10 @@ def test_a_fit_stands_for_its_slope_at_zero():
     assert critical_speed_intervals(fit, ROBOT, BUMP, 7, 9) == critical_speed_intervals(
         fit.slope, ROBOT, BUMP, 7, 9
     )
-    assert stiffness_distribution(fit).mean() == fit.stiffness
-    np.testing.assert_allclose(
-        stiffness_distribution(fit).interval(0.95), fit.stiffness_interval(), rtol=1e-12
-    )
     assert loss_probability(fit, ROBOT, BUMP, 8) == loss_probability(fit.slope, ROBOT, BUMP, 8)
 
 
-@pytest.mark.parametrize("function", [stiffness_distribution,
+@pytest.mark.parametrize("function", [
     lambda k: critical_speed_intervals(k, ROBOT, BUMP, 1, 2),
     lambda k: loss_probability(k, ROBOT, BUMP, 1)])  # fmt: skip
 def test_a_bare_number_is_no_stiffness(function):

@@ -6,6 +6,7 @@ from cases import faults
 from hypothesis import given
 from hypothesis import strategies as st
 
+from suspension.contact import Regimes
 from suspension.report import words
 
 numbers = st.floats(-1e300, 1e300, allow_subnormal=False)
@@ -52,6 +53,13 @@ def test_small_values_are_not_rounded_to_nothing():
     assert words.confidence(0.0) == "<\u00a00.01\u00a0%"
 
 
+def test_small_angles_are_judged_by_the_sine_and_by_the_cosine_which_is_worse():
+    text = words.small_angle(np.radians(9.12)).replace("\u00a0", " ")
+    assert text.endswith("differ by 0.42 %, $\\cos\\theta$ and 1 by 1.3 %") and not faults(text)
+    assert "by 1.6 %" in words.small_angle(np.radians(17.8)).replace("\u00a0", " ")
+    assert "by 4.8 %" in words.small_angle(np.radians(17.8)).replace("\u00a0", " ")
+
+
 def test_lists_of_every_length():
     assert [words.join(range(n)) for n in range(4)] == ["none", "0", "0 and 1", "0, 1 and 2"]
     assert words.speed_list([]) == "no speed"
@@ -61,13 +69,20 @@ def test_lists_of_every_length():
 @pytest.mark.parametrize(
     ("edges", "lost", "expected"),
     [
-        ([0.1, 30], [False], "kept at every speed from 0.100 to 30.0 m/s"),
-        ([0.1, 30], [True], "lost at every speed from 0.100 to 30.0 m/s"),
+        ([0.1, 30], [False], "kept at every speed from 0.1 to 30 m/s"),
+        ([0.1, 30], [True], "lost at every speed from 0.1 to 30 m/s"),
+        ([0.1, 1, 30], [True, True], "lost at every speed from 0.1 to 30 m/s"),
         ([0.1, 1, 30], [False, True], "kept up to 1.00 m/s and lost from there on"),
+        (
+            [0.1, 0.40178, 0.444945, 0.445960, 30],
+            [False, True, False, True],
+            "kept up to 0.402 m/s, lost from 0.402 to 0.4449 m/s, kept from 0.4449 to 0.4460 m/s "
+            "and lost from there on",
+        ),
     ],
 )
 def test_ranges(edges, lost, expected):
-    assert words.ranges(edges, lost).replace("\u00a0", " ") == expected
+    assert words.ranges(Regimes(edges, lost)).replace("\u00a0", " ") == expected
 
 
 @pytest.mark.parametrize(

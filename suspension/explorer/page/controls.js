@@ -6,6 +6,7 @@ import { readNumber } from "./state.js";
 export const UNITS = { dt: 1000, height: 1000, sigma: 1000 }; // a number's units in one of the model's
 const SNAP = 0.008; // of a slider, within which it takes the robot's own value
 const STRIDE = 0.01; // of a slider, for an arrow key
+const HANDLE = 20; // pixels, as the style sheet draws it
 
 /** From a value to a place on the slider, 0 to 1, and back. */
 export function makeScale([low, high, logarithmic]) {
@@ -21,7 +22,7 @@ export function round(value, [low, high], own, scale) {
   return clamp(Number(value.toPrecision(3)), low, high);
 }
 
-/** The next value up or down for a key, or null: steps go from one round one to the next. */
+/** The next value up or down for a key, or null; where there are round steps, page keys go to the next. */
 export function nextValue(key, value, range, steps) {
   const scale = makeScale(range),
     [low, high] = range;
@@ -29,7 +30,7 @@ export function nextValue(key, value, range, steps) {
   if (key === "Home") return low;
   if (key === "End") return high;
   if (!way) return null;
-  if (steps) {
+  if (steps && Math.abs(way) > 1) {
     const found =
       way > 0
         ? steps.find((step) => step > value * (1 + 1e-9))
@@ -44,10 +45,16 @@ export function nextValue(key, value, range, steps) {
   return digits === value ? clamp(next, low, high) : digits;
 }
 
-/** Join every control of a box to the model. */
+/** Join every control of a box to the model; what comes back parts them. */
 export function bindControls(box, model) {
-  const facts = model.get("facts");
-  for (const control of box.querySelectorAll(".se-control")) bindSlider(control, model, facts);
+  const facts = model.get("facts"),
+    updates = [];
+  const follow = (trait, update) => {
+    model.on(`change:${trait}`, update);
+    updates.push([`change:${trait}`, update]);
+    update();
+  };
+  for (const control of box.querySelectorAll(".se-control")) bindSlider(control, model, facts, follow);
   for (const choice of box.querySelectorAll(".se-choice[data-trait]")) {
     const { trait } = choice.dataset,
       buttons = [...choice.querySelectorAll("button")];
@@ -57,9 +64,38 @@ export function bindControls(box, model) {
     };
     for (const button of buttons)
       button.addEventListener("click", () => set(model, trait, Number(button.dataset.index)));
-    model.on(`change:${trait}`, update);
-    update();
+    follow(trait, update);
   }
+  return () => {
+    for (const [event, update] of updates) model.off(event, update);
+  };
+}
+
+/**
+ * What a pointer that has taken the handle does with it: the place follows the pointer without a
+ * jump, and comes back to the very value with it. On the bare track the slider's own place counts.
+ */
+function makeHold(slider, scale, model, trait) {
+  let start = null,
+    x = 0;
+  const travel = () => slider.getBoundingClientRect().width - HANDLE;
+  slider.addEventListener("pointerdown", ({ clientX }) => {
+    const value = model.get(trait),
+      place = scale.toPlace(value),
+      middle = slider.getBoundingClientRect().left + HANDLE / 2 + place * travel();
+    start = Math.abs(clientX - middle) <= HANDLE / 2 + 2 ? { x: clientX, value, place } : null;
+    x = clientX;
+  });
+  slider.addEventListener("pointermove", ({ clientX }) => (x = clientX));
+  for (const name of ["pointerup", "pointercancel", "keydown"])
+    slider.addEventListener(name, () => setTimeout(() => (start = null)));
+  /** The value as it was at the start, or null; and the place, 0 to 1. */
+  return () => {
+    const width = travel();
+    if (!start || !(width > 0)) return { place: clamp(Number(slider.value), 0, 1), value: null };
+    if (Math.abs(x - start.x) < 1) return start;
+    return { place: clamp(start.place + (x - start.x) / width, 0, 1), value: null };
+  };
 }
 
 function set(model, trait, value) {
@@ -67,7 +103,7 @@ function set(model, trait, value) {
   model.save_changes();
 }
 
-function bindSlider(control, model, facts) {
+function bindSlider(control, model, facts, follow) {
   const { trait } = control.dataset,
     range = facts.ranges[trait],
     scale = makeScale(range);
@@ -94,9 +130,11 @@ function bindSlider(control, model, facts) {
       complain("");
     }
   };
-  slider.addEventListener("input", () =>
-    set(model, trait, round(scale.toValue(Number(slider.value)), range, own, scale)),
-  );
+  const held = makeHold(slider, scale, model, trait);
+  slider.addEventListener("input", () => {
+    const { place, value } = held();
+    set(model, trait, value ?? round(scale.toValue(place), range, own, scale));
+  });
   slider.addEventListener("keydown", (event) => {
     const next = nextValue(event.key, model.get(trait), range, trait === "dt" ? facts.dts : null);
     if (next === null) return;
@@ -121,7 +159,6 @@ function bindSlider(control, model, facts) {
   });
   number.addEventListener("blur", update);
   number.addEventListener("focus", () => number.select());
-  model.on(`change:${trait}`, update);
   if (own !== undefined) control.style.setProperty("--se-own", scale.toPlace(own));
-  update();
+  follow(trait, update);
 }

@@ -1,7 +1,7 @@
 // The margin over speed and stiffness: a picture that is computed in small portions, row by row.
 
 import { makeLeast, makeRoad, makeRobot } from "./model.js";
-import { clamp, show } from "./pen.js";
+import { clamp, powers, show } from "./pen.js";
 
 const ROWS = 28; // stiffnesses
 const COLUMNS = 64; // speeds
@@ -33,7 +33,7 @@ export function makeMap(data, settings) {
 /** Draw a map as far as it is known; where things are in it. */
 export function drawMap({ w, h, shade, stroke, line, text, legend, inside, dot }, { data, robot }, map) {
   const [left, right, top, bottom] = [44, w - 12, 26, h - 33];
-  const { v: speeds, k: stiffnesses } = data.ranges;
+  const [speeds, stiffnesses] = [data.ranges.v, data.ranges.k].map((ends) => ends.slice(0, 2));
   const ratio = Math.log(speeds[1] / speeds[0]),
     rise = Math.log(stiffnesses[1] / stiffnesses[0]);
   const px = (v) => left + ((right - left) * Math.log(v / speeds[0])) / ratio;
@@ -63,13 +63,11 @@ export function drawMap({ w, h, shade, stroke, line, text, legend, inside, dot }
     for (const v of data.asked) dot(px(v), py(data.own.k), 3.5, "paper", "ink", 1.5);
   });
   stroke("soft", 1);
-  for (const v of [0.1, 0.2, 0.5, 1, 2, 5, 10, 20]) {
+  for (const v of powers(...speeds)) {
     line(px(v), bottom, px(v), bottom + 4);
     text(show(v), px(v), bottom + 15, { align: "center" });
   }
-  for (const k of [50, 100, 200, 500, 1000, 2000, 5000].filter(
-    (k) => k >= stiffnesses[0] && k <= stiffnesses[1],
-  )) {
+  for (const k of powers(...stiffnesses)) {
     line(left - 4, py(k), left, py(k));
     text(show(k, 4), left - 6, py(k) + 4, { align: "right" });
   }

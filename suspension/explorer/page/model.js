@@ -15,8 +15,6 @@ import {
 } from "./linear.js";
 
 const TOLERANCE = 1e-12; // of |R| <= 1 and of whole numbers of steps, as in Python
-const FINEST = 0.0004; // s, the longest step of a flight
-const CELLS = 512; // steps of the curve over all speeds, each of the same length
 const SPEEDS = 128;
 const MOST = 5; // changes within one step
 
@@ -63,14 +61,14 @@ export function makeRobot({ model }, { k, c }) {
   const at = (parts) => combine([1, parts["1"]], [k, parts.k], [c, parts.c]);
   const C = at(model.C),
     D = at(model.D),
-    { S, P, e, Cp, Dp } = model;
+    { S, P, e, Cp, Dp, contact } = model;
   const A = combine([1, S], [1, multiply(P, C)]);
   const equilibrium = solve(
     A,
     e.map((value) => -value),
   ).map((value) => value + 0);
   const modes = roots(characteristic(A));
-  return { A, C, D, S, P, e, Cp, Dp, equilibrium, weight: apply(C, equilibrium), modes };
+  return { A, C, D, S, P, e, Cp, Dp, contact, equilibrium, weight: apply(C, equilibrium), modes };
 }
 
 /**
@@ -197,7 +195,7 @@ export function simulate(data, robot, road, scheme, v, dt, J, memory) {
     W3[n] = q3 + d3;
     N0[n] = r0 + C[0] * d0 + C[1] * d1 + C[2] * d2 + C[3] * d3 + ends[2 * n];
     N1[n] = r1 + C[4] * d0 + C[5] * d1 + C[6] * d2 + C[7] * d3 + ends[2 * n + 1];
-    if (n === J) break;
+    if (!(n < J)) break; // also if there is no number of steps
     let x0 = R[0] * d0 + R[1] * d1 + R[2] * d2 + R[3] * d3;
     let x1 = R[4] * d0 + R[5] * d1 + R[6] * d2 + R[7] * d3;
     let x2 = R[8] * d0 + R[9] * d1 + R[10] * d2 + R[11] * d3;
@@ -309,7 +307,8 @@ export function judgeExactly(run) {
  * equal length, so that all speeds feel the same road, at v times the slope.
  */
 export function makeLeast(data, robot, road) {
-  const h = data.distance / CELLS,
+  const CELLS = data.cells, // steps of equal length
+    h = data.distance / CELLS,
     { curveScheme: scheme } = data,
     [c0, c1] = scheme.c;
   // D u = (its part by heights) + v (its part by slopes), at the cells' beginnings and two stages.
@@ -381,11 +380,14 @@ export function makeCurve(data, robot, road, settings) {
   const least = [new Float64Array(SPEEDS), new Float64Array(SPEEDS)];
   speeds.forEach((v, i) => ([least[0][i], least[1][i]] = leastAt(v)));
   const margin = (v) => Math.min(...leastAt(v));
-  const critical = [];
+  let critical = [];
   for (let i = 1; i < SPEEDS; i++) {
     const [before, after] = [i - 1, i].map((j) => Math.min(least[0][j], least[1][j]));
     if (before > 0 !== after > 0) critical.push(zero(margin, speeds[i - 1], speeds[i], before, after));
   }
+  const { at, critical: exact } = data.exact ?? {};
+  if (at && exact.length === critical.length && Object.keys(at).every((name) => at[name] === settings[name]))
+    critical = exact;
   return { speeds, least, critical, kept: margin(low) > 0, leastAt, settings };
 }
 
@@ -416,17 +418,18 @@ function zero(f, a, b, fa, fb) {
 /**
  * The robot with forces that switch off and on: for each set of wheels that press, the same linear
  * model with the others' forces left out, w' = (S + P s C) w + P s D u + e. The set follows from
- * the springs' compressions p and from Eq. 5, f: a wheel presses where p >= 0 and f > 0. Where the
- * set changes, the step is parted at the zero of the straight line between its ends.
+ * the conditions that Python handed over: each is a quantity of either wheel that must be positive,
+ * or zero. Where the set changes, the step is parted at the zero of the straight line between its
+ * ends.
  */
 export function fly(data, robot, road, settings, memory) {
   const { v } = settings,
     scale = shortestScale(data, robot, settings),
     end = data.distance / v;
-  const dt = Math.min(FINEST, scale.road / 16, 0.1 * scale.modes),
+  const dt = Math.min(data.longestStep, scale.road / 16, 0.1 * scale.modes),
     J = countSteps(end, dt);
   const motion = makeMotion(data, robot, road, v),
-    { w, springs, press, advance } = motion;
+    { w, feel, press, advance, count, force, length } = motion;
   const full = [0, 1, 2, 3].map((set) => motion.prepare(set, dt));
   const W = [0, 1, 2, 3].map((i) => memory(`flying W${i}`, J + 1));
   const N = [0, 1].map((i) => memory(`flying N${i}`, J + 1));
@@ -435,30 +438,30 @@ export function fly(data, robot, road, settings, memory) {
   const [W0, W1, W2, W3] = W,
     [N0, N1] = N,
     [gap0, gap1] = gaps;
-  let before = new Float64Array(4),
-    after = new Float64Array(4);
+  let before = new Float64Array(count),
+    after = new Float64Array(count);
   const saved = new Float64Array(4);
-  springs(0, before);
+  feel(0, before);
   let set = press(before);
   for (let n = 0; ; n++) {
     W0[n] = w[0];
     W1[n] = w[1];
     W2[n] = w[2];
     W3[n] = w[3];
-    N0[n] = set & 1 ? before[2] : 0;
-    N1[n] = set & 2 ? before[3] : 0;
-    gap0[n] = set & 1 || before[0] > 0 ? 0 : -before[0];
-    gap1[n] = set & 2 || before[1] > 0 ? 0 : -before[1];
-    if (n === J) break;
+    N0[n] = set & 1 ? before[force] : 0;
+    N1[n] = set & 2 ? before[force + 1] : 0;
+    gap0[n] = set & 1 || before[length] > 0 ? 0 : -before[length];
+    gap1[n] = set & 2 || before[length + 1] > 0 ? 0 : -before[length + 1];
+    if (!(n < J)) break; // also if there is no number of steps
     saved.set(w);
     advance(full[set], n * dt);
-    springs((n + 1) * dt, after);
+    feel((n + 1) * dt, after);
     if (press(after) === set) {
       [before, after] = [after, before];
     } else {
       w.set(saved);
       set = part(motion, n * dt, dt, set, before, after, events);
-      springs((n + 1) * dt, before);
+      feel((n + 1) * dt, before);
     }
   }
   return { W, N, gaps, J, dt, v, events, airtime: airtime(events, end) };
@@ -468,7 +471,8 @@ export function fly(data, robot, road, settings, memory) {
  * One step in which the set changes: up to each change with the old set, then on with the new one.
  * The changes are appended to the events; the set at the end comes back.
  */
-function part({ w, springs, press, advance, prepare, v }, start, dt, set, before, after, events) {
+function part(motion, start, dt, set, before, after, events) {
+  const { w, feel, press, advance, prepare, v } = motion;
   const saved = new Float64Array(4);
   let t = start,
     left = dt,
@@ -476,43 +480,46 @@ function part({ w, springs, press, advance, prepare, v }, start, dt, set, before
   for (let tries = 0; tries < MOST && left > 0; tries++) {
     const next = press(last);
     if (next === set) return set;
-    const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(first, last, i) : Infinity));
+    const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(motion, first, last, i) : Infinity));
     const share = Math.min(Math.max(Math.min(...parts), 1e-6), 1);
     if (tries) w.set(saved); // back to the last change
     advance(prepare(set, share * left), t);
     t += share * left;
     left = share < 1 ? (1 - share) * left : 0;
-    springs(t, first);
+    feel(t, first);
     for (const i of [0, 1]) {
       if (parts[i] > share + 1e-9) continue;
       set ^= 1 << i;
       const lands = Boolean(set & (1 << i)),
-        force = lands ? Math.max(first[2 + i], 0) : 0;
+        force = lands ? Math.max(first[motion.force + i], 0) : 0;
       events.push({ wheel: i, kind: lands ? "landing" : "lift-off", t, X: v * t, force });
     }
     saved.set(w);
     if (left > 0) {
       advance(prepare(set, left), t);
-      springs(t + left, last);
+      feel(t + left, last);
     }
   }
   return left > 0 ? press(last) : set;
 }
 
 /** The motion of a robot at a speed: its state w, and how it goes on with each set of wheels. */
-function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
-  const w = Float64Array.from(equilibrium),
+function makeMotion(data, robot, road, v) {
+  const { C, D, P, S, e, equilibrium, contact } = robot,
+    w = Float64Array.from(equilibrium),
     u = new Float64Array(4),
     [rear, front] = data.wheels;
   const systems = [0, 1, 2, 3].map((set) => {
     const pressing = P.map((row) => row.map((value, i) => (set & (1 << i) ? value : 0)));
     return { A: combine([1, S], [1, multiply(pressing, C)]), B: multiply(pressing, D) };
   });
-  const rows = [Cp[0], Cp[1], C[0], C[1]],
-    columns = [Dp[0], Dp[1], D[0], D[1]];
-  const M = flatten(rows),
-    L = flatten(columns);
-  const feel = (t) => {
+  // What the conditions are about, of the rear and the front wheel, one condition after another.
+  const { conditions } = contact,
+    count = 2 * conditions.length;
+  const M = flatten(conditions.flatMap(({ of: [ofState] }) => robot[ofState])),
+    L = flatten(conditions.flatMap(({ of: [, ofRoad] }) => robot[ofRoad]));
+  const strict = conditions.map((condition) => condition.strict);
+  const meetRoad = (t) => {
     road(v * t + rear, u, 0, v);
     road(v * t + front, u, 1, v);
     return u[0] !== 0 || u[1] !== 0 || u[2] !== 0 || u[3] !== 0;
@@ -520,6 +527,9 @@ function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
   return {
     w,
     v,
+    count,
+    force: 2 * contact.force,
+    length: 2 * contact.length,
     prepare(set, h) {
       const { R, gains } = oneStep(data.reference, systems[set].A, h);
       const total = combine(...gains.map(([, G]) => [1, G]));
@@ -536,7 +546,7 @@ function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
       let x2 = weight[2] + R[8] * w0 + R[9] * w1 + R[10] * w2 + R[11] * w3;
       let x3 = weight[3] + R[12] * w0 + R[13] * w1 + R[14] * w2 + R[15] * w3;
       for (let q = 0; q < places.length; q++) {
-        if (!feel(t + places[q])) continue;
+        if (!meetRoad(t + places[q])) continue;
         const G = forcing[q];
         x0 += force(G, 0, u, 0);
         x1 += force(G, 1, u, 0);
@@ -548,27 +558,37 @@ function makeMotion(data, { C, D, P, S, e, Cp, Dp, equilibrium }, road, v) {
       w[2] = x2;
       w[3] = x3;
     },
-    /** Compressions and Eq. 5 of both wheels: [p, p, f, f]. */
-    springs(t, found) {
-      const level = !feel(t);
-      for (let i = 0; i < 4; i++) {
+    /** The quantities of both wheels, rear before front, one condition after another. */
+    feel(t, found) {
+      const level = !meetRoad(t);
+      for (let i = 0; i < count; i++) {
         found[i] = force(M, i, w, 0) + (level ? 0 : force(L, i, u, 0));
       }
     },
-    press: (s) => (s[0] >= 0 && s[2] > 0 ? 1 : 0) | (s[1] >= 0 && s[3] > 0 ? 2 : 0),
+    /** The set of wheels that press. */
+    press(found) {
+      let set = 3;
+      for (let j = 0; j < count; j++) {
+        const holds = strict[j >> 1] ? found[j] > 0 : found[j] >= 0;
+        if (!holds) set &= ~(1 << (j & 1));
+      }
+      return set;
+    },
   };
 }
 
 /**
  * Where, from 0 to 1, wheel i changes, on straight lines between the ends of a step: it lands at
- * the later of its two conditions, and leaves when the first one fails.
+ * the last of its conditions, and leaves when the first one fails.
  */
-function turn(before, after, i) {
-  const cross = (a, b) => (a > 0 !== b > 0 ? [a / (a - b)] : []);
-  const found = [...cross(before[i], after[i]), ...cross(before[2 + i], after[2 + i])];
+function turn({ press, count }, before, after, i) {
+  const found = [];
+  for (let j = i; j < count; j += 2) {
+    const [a, b] = [before[j], after[j]];
+    if (a > 0 !== b > 0) found.push(a / (a - b));
+  }
   if (!found.length) return 1;
-  const lands = after[i] >= 0 && after[2 + i] > 0;
-  return lands ? Math.max(...found) : Math.min(...found);
+  return press(after) & (1 << i) ? Math.max(...found) : Math.min(...found);
 }
 
 /** How long each wheel bears no force, s. */

@@ -1,11 +1,10 @@
 // For a built page: brings its explorers to life without a kernel or a widget manager, and lets the
 // address and the phrases in the text set their pictures.
 
-import { bindControls } from "./controls.js";
+import { linkOf, PREFIX } from "./phrases.js";
+import { readHash, writeHash } from "./state.js";
 import { render } from "./view.js";
-import { readHash, settingsOf, writeHash } from "./state.js";
 
-const PREFIX = "#explore:";
 const PAUSE = 400; // ms after the last change, until the address says it
 
 /** What anywidget gives a view in JupyterLab: a model with get, set, on, off and save_changes. */
@@ -32,12 +31,9 @@ const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCo
 function start(box) {
   const values = JSON.parse(box.querySelector(".se-state").textContent);
   for (const [name, text] of Object.entries(values.tables)) values.tables[name] = bytes(text);
-  const model = makeModel(values),
-    place = box.querySelector(".se-place");
-  const view = render(model, place);
-  bindControls(box, model);
+  const view = render(makeModel(values), box.querySelector(".se-place"));
   box.classList.add("se-live");
-  return { box, model, view, initial: settingsOf(model) };
+  return view;
 }
 
 function begin() {
@@ -50,9 +46,9 @@ function begin() {
   const follow = (hash) => {
     const [index, settings] = hash.startsWith(PREFIX) ? readHash(hash.slice(PREFIX.length)) : [0, null];
     quiet = true;
-    explorers.forEach(({ view, initial }, i) => {
-      if (i === index && settings) view.apply({ ...initial, time: null, ...settings });
-      else if (!settings) view.apply(initial);
+    explorers.forEach((view, i) => {
+      if (i === index && settings) view.apply({ ...view.initial, time: null, ...settings });
+      else if (!settings) view.apply(view.initial);
     });
     quiet = false;
     return settings ? explorers[index] : null;
@@ -62,12 +58,12 @@ function begin() {
     explorer?.box.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
   };
 
-  explorers.forEach(({ view, initial }, index) => {
+  explorers.forEach((view, index) => {
     view.onSettled(() => {
       if (quiet) return;
       clearTimeout(timer);
       timer = setTimeout(() => {
-        const text = writeHash(view.settings(), initial, index);
+        const text = writeHash(view.settings(), view.initial, index);
         const others = location.hash && !location.hash.startsWith(PREFIX);
         if (!text && others) return;
         const bare = location.pathname + location.search;
@@ -76,10 +72,9 @@ function begin() {
     });
   });
   document.addEventListener("click", (event) => {
-    const link = event.target.closest?.(`a[href^="${PREFIX}"]`);
-    if (!link || event.ctrlKey || event.metaKey || event.shiftKey || event.button) return;
+    const hash = linkOf(event);
+    if (!hash?.startsWith(PREFIX)) return;
     event.preventDefault();
-    const hash = link.getAttribute("href");
     if (location.hash !== hash) history.pushState(null, "", hash);
     show(follow(hash));
   });

@@ -3,7 +3,7 @@
 // drawn again only when the panel's `key` is another one.
 
 import { drawMap } from "./map.js";
-import { clamp, show, ticks } from "./pen.js";
+import { clamp, powers, show, ticks } from "./pen.js";
 import { WHEEL } from "./words.js";
 
 const NAMES = ["N₁", "N₂"];
@@ -51,7 +51,8 @@ export const robotPanel = {
       spot = new Float64Array(4);
     [rear, front].forEach((offset, i) => road(X + offset, u, i, 0));
     const level = (u[0] + u[1]) / 2,
-      climb = level - clamp(level, -0.03, 0.03); // up and down hills
+      room = 0.14 * length,
+      climb = level - clamp(level, -room, room); // up and down hills
     const px = (x) => w / 2 + (x - X) * scale,
       py = (y) => h - 42 - (y - climb) * scale;
 
@@ -87,7 +88,7 @@ export const robotPanel = {
         bold: lost,
         halo: true,
       });
-      if (spring > data.springEnd) {
+      if (data.springEnd !== null && spring > data.springEnd) {
         text("beyond the measured spring", i ? w : 0, 30, {
           align: i ? "right" : "left",
           colour: "doubt",
@@ -122,7 +123,8 @@ function drawRobot(
   { W, N },
   faint,
 ) {
-  const Y = clamp(W[0], -0.3, 0.3) || 0,
+  const far = 1.4 * (data.wheels[1] - data.wheels[0]),
+    Y = clamp(W[0], -far, far) || 0,
     tilt = clamp(W[2], -1.5, 1.5) || 0;
   const state = [Y, 0, tilt, 0];
   const p = [0, 1].map((i) => compression(robot, state, u, i));
@@ -401,7 +403,7 @@ export const speedsPanel = {
           halo: true,
         });
     });
-    for (const v of [0.1, 0.2, 0.5, 1, 2, 5, 10, 20]) {
+    for (const v of powers(lowest, highestSpeed)) {
       stroke("soft", 1);
       line(px(v), bottom, px(v), bottom + 4);
       text(show(v), px(v), bottom + 15, { align: "center" });

@@ -28,6 +28,18 @@ export function ticks(low, high, count) {
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
 }
 
+/** Round numbers for a logarithmic axis: 1, 2 and 5 times the powers of ten from low to high. */
+export function powers(low, high) {
+  const found = [];
+  for (let ten = 10 ** Math.floor(Math.log10(low)); ten <= high; ten *= 10) {
+    for (const m of [1, 2, 5]) {
+      const value = Number((m * ten).toPrecision(1));
+      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) found.push(value);
+    }
+  }
+  return found;
+}
+
 /** A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. */
 export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 1) {
   const g = canvas.getContext("2d");

@@ -18,7 +18,6 @@ import {
 import { disagrees } from "./words.js";
 
 const STABLE = 1 + 1e-12; // as in Python
-export const SETTINGS = ["v", "dt", "k", "c", "height", "sigma", "scheme_index"];
 
 /** Computed by `make`, again only if the values of `key` are others than the last time. */
 function remember() {
@@ -68,8 +67,9 @@ function grounded(truth) {
   return { ...truth, gaps: [0, 1].map(() => new Float64Array(truth.J + 1)), events: [], airtime: [0, 0] };
 }
 
-/** When a spring is compressed further than it was measured: pairs of times. */
+/** When a spring is compressed further than it was measured, if that is known: pairs of times. */
 function beyond(data, robot, road, { W, J, dt, v }) {
+  if (data.springEnd === null) return [];
   const { Cp, Dp } = robot,
     u = new Float64Array(4),
     ranges = [];

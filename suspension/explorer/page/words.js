@@ -43,7 +43,7 @@ function describeRun(scene) {
   let tone, headline;
   if (!run) {
     [tone, headline] = ["doubt", `${method} cannot take this step. Exactly: ${outcome(scene, exact)}.`];
-    return { tone, headline, details: details.concat(spring(scene, truth)) };
+    return { tone, headline, details: details.concat(remarks(scene, truth)) };
   }
   if (!stable) {
     tone = "doubt";
@@ -72,12 +72,24 @@ function describeRun(scene) {
         : `Its forces differ by up to ${unit(run.error, "N", 2)} from the exact ones.`,
     );
   }
-  return { tone, headline, details: details.concat(spring(scene, truth)) };
+  return { tone, headline, details: details.concat(remarks(scene, truth)) };
 }
 
-function spring({ data }, { beyond }) {
-  if (!beyond.length) return [];
+/** What else there is to know: a spring beyond its readings, a start that is none. */
+function remarks({ data, settings }, { beyond }) {
+  const found = [],
+    away = (wheel) => Math.abs(wheel - data.shape.centre) / settings.sigma;
+  const standing =
+    data.hasBump && settings.height ? [0, 1].filter((i) => away(data.wheels[i]) < data.widths) : [];
+  if (standing.length) {
+    const wheels = standing.map((i) => WHEEL[i]).join(" and the ");
+    found.push(
+      `At the start the ${wheels} wheel already ${standing.length > 1 ? "stand" : "stands"} on the bump.`,
+    );
+  }
+  if (!beyond.length) return found;
   return [
+    ...found,
     `From ${equals("t", beyond[0][0], "s")} a spring is compressed further than it was measured (${unit(1000 * data.springEnd, "mm")}).`,
   ];
 }
@@ -89,7 +101,7 @@ function describeFlight(scene) {
     return {
       tone: "kept",
       headline: "No wheel leaves the ground: flying and linear are the same.",
-      details: spring(scene, flight),
+      details: remarks(scene, flight),
     };
   }
   const first = events[0],
@@ -107,7 +119,7 @@ function describeFlight(scene) {
   return {
     tone: "lost",
     headline: `Off the ground ${how}, first the ${wheel(scene, first)}.`,
-    details: details.concat(spring(scene, flight)),
+    details: details.concat(remarks(scene, flight)),
   };
 }
 

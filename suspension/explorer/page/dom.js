@@ -1,0 +1,38 @@
+// Elements: making them, and changing what they say.
+
+export function make(parent, tag, name, attributes = {}, text = "") {
+  const child = document.createElement(tag);
+  if (name) child.className = name;
+  for (const [key, value] of Object.entries(attributes)) child.setAttribute(key, value);
+  if (text) child.textContent = text;
+  return parent.appendChild(child);
+}
+
+export const button = (parent, text, attributes = {}) =>
+  make(parent, "button", "", { type: "button", ...attributes }, text);
+
+/** Change a text without making the page look for new elements. */
+export function write(element, text) {
+  const node = element.firstChild ?? element.appendChild(document.createTextNode(""));
+  if (node.data !== text) node.data = text;
+}
+
+/** The frame of a view: where its words, pictures and tools go. */
+export function makeFrame(el, facts, view) {
+  const root = make(el, "div", facts.compact ? "suspension-explorer se-small" : "suspension-explorer");
+  const status = make(root, "div", "se-status");
+  const frame = {
+    root,
+    box: root.closest(".suspension-explorer-box") ?? root,
+    status,
+    headline: make(status, "strong", "se-headline"),
+    spoken: make(root, "div", "se-spoken", { role: "status" }),
+    stage: make(root, "div", "se-panels", { "data-view": view }),
+    tabs: make(root, "div", "se-tabs", { role: "group", "aria-label": "Below the robot" }),
+    bar: make(root, "div", "se-bar"),
+    tools: make(root, "div", "se-tools"),
+    details: make(root, "p", "se-details"),
+  };
+  frame.canvases = facts.panels.map((name) => make(frame.stage, "canvas", `se-${name}`, { role: "img" }));
+  return frame;
+}

@@ -1,0 +1,98 @@
+// Draws the panels, once a frame at most, in the colours of the theme and at the size that they have.
+
+import { PANELS } from "./panels.js";
+import { begin } from "./pen.js";
+import { CLOSE } from "./words.js";
+
+const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "doubt", "paper"];
+
+/** `told` is called after a picture was drawn: with the options, and whether more than the moment changed. */
+export function makePainter({ root, canvases }, names, shown, told) {
+  const panels = names.map((name, i) => ({
+    ...PANELS[name],
+    canvas: canvases[i],
+    cache: document.createElement("canvas"),
+    size: [0, 0],
+  }));
+  let frame = 0,
+    redraw = true;
+  const painter = { panels, colours: null, schedule, change, destroy };
+
+  function schedule() {
+    frame ||= requestAnimationFrame(paint);
+  }
+  /** More than the moment has changed. */
+  function change() {
+    redraw = true;
+    schedule();
+  }
+  function paint() {
+    frame = 0;
+    const scene = shown.scene();
+    if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
+    if (!painter.colours) readColours();
+    const options = shown.options(),
+      { now, motion } = options;
+    const apart = scene.flight.events.length > 0 || (motion === "flying" && !(scene.run?.error < CLOSE));
+    options.ghost = apart ? (motion === "flying" ? now.linear : now.flying) : null;
+    for (const panel of panels) paintPanel(panel, scene, options);
+    told(options, redraw);
+    redraw = Boolean(options.map) && options.map.work(); // a map grows over several frames
+    if (redraw) schedule();
+    root.dispatchEvent(new Event("painted", { bubbles: true })); // for those who measure
+  }
+  function paintPanel(panel, scene, options) {
+    const [w, h] = panel.size;
+    if (!w || !h) return; // not shown on a phone
+    if (redraw && panel.still) {
+      const key = [...panel.key(scene, options), w, h, devicePixelRatio, shown.looks].join();
+      if (key !== panel.drawn) panel.still(begin(panel.cache, w, h, painter.colours), scene, options);
+      panel.drawn = key;
+    }
+    const pen = begin(panel.canvas, w, h, painter.colours);
+    if (panel.still) pen.g.drawImage(panel.cache, 0, 0, w, h);
+    panel.live?.(pen, scene, options);
+  }
+
+  // ---- the theme's colours
+
+  function readColours() {
+    const style = getComputedStyle(root);
+    painter.colours = { font: style.fontFamily };
+    for (const name of COLOURS) painter.colours[name] = style.getPropertyValue(`--se-${name}`).trim();
+    shown.looks++;
+    redraw = true;
+  }
+  const recolour = () => {
+    readColours();
+    paint(); // at once, or paper would get the dark picture
+  };
+  const themes = new MutationObserver(recolour);
+  themes.observe(document.documentElement, { attributeFilter: ["data-theme"] });
+  themes.observe(document.body, { attributeFilter: ["data-jp-theme-light"] });
+  const contrasts = matchMedia("(forced-colors: active)");
+  contrasts.addEventListener("change", recolour);
+
+  // ---- their sizes
+
+  const sizes = new ResizeObserver((entries) => {
+    for (const { target, contentRect } of entries) {
+      const panel = panels.find(({ canvas }) => canvas === target);
+      panel.size = [Math.round(contentRect.width), Math.round(contentRect.height)];
+    }
+    redraw = true;
+    // What is below the window when the page opens lets the others go first.
+    const waits = !shown.isComputed() && root.getBoundingClientRect().top > innerHeight;
+    if (waits) setTimeout(schedule, 100);
+    else schedule();
+  });
+  for (const { canvas } of panels) sizes.observe(canvas);
+
+  function destroy() {
+    themes.disconnect();
+    sizes.disconnect();
+    contrasts.removeEventListener("change", recolour);
+    cancelAnimationFrame(frame);
+  }
+  return painter;
+}

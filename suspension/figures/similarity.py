@@ -1,0 +1,199 @@
+"""The chart of the highest bumps: dimensionless speed against height, for every robot."""
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.ticker import FuncFormatter, NullLocator
+
+from suspension.figures.style import COLOURS, LINES, axes_or_new
+
+__all__ = ["plot_chart", "plot_comb", "plot_vehicles", "plot_window"]
+
+SPEED = r"speed $\nu = v/\sigma\omega_0$"
+HEIGHT = r"height $\eta = h_0/(mg/2k)$"
+LOST = "#fbe3d6"
+BOX = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
+
+
+def _chart_axes(ax, nu, heights):
+    """Logarithmic axes with plain numbers, over the given speeds and heights."""
+    ax.set(xscale="log", yscale="log", xlim=(nu[0], nu[-1]), ylim=heights)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        axis.set_minor_locator(NullLocator())
+    ax.set(xlabel=SPEED, ylabel=HEIGHT)
+    return ax
+
+
+def _along(ax, x, y, text, **style):
+    """Write along a curve, at the middle of what is seen of it."""
+    low, high = ax.get_ylim()
+    left, right = ax.get_xlim()
+    seen = np.flatnonzero((low < y) & (y < high) & (left < x) & (x < right))
+    if len(seen) < 3:
+        return
+    i = seen[len(seen) // 2]
+    angle = np.degrees(np.arctan2(y[i + 1] - y[i - 1], x[i + 1] - x[i - 1]))
+    upright = {"rotation_mode": "anchor", "transform_rotates_text": True}
+    ax.text(x[i], y[i], text, rotation=angle, ha="center", va="bottom", **upright, **style)
+
+
+def _at_the_end(ax, x, y, text, **style):
+    """Write beside the right end of a curve, or where it leaves the axes above or below."""
+    low, high = ax.get_ylim()
+    seen = np.flatnonzero((low < y) & (y < high))
+    if not len(seen):
+        return
+    if seen[-1] == len(x) - 1:
+        ax.text(x[-1], y[-1], f" {text}", va="center", **style)
+    elif y[-1] >= high:
+        ax.text(x[seen[-1]], high, text, ha="center", va="bottom", **style)
+    else:
+        ax.text(0.75 * x[seen[-1]], low * 1.1, text, ha="right", va="bottom", **style)
+
+
+def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.03, 300), ax=None):
+    """The highest bump that is crossed with contact against speed, for several dampings.
+
+    Parameters
+    ----------
+    nu : ndarray, shape (n,)
+        Dimensionless speeds, in order.
+    curves : dict of float to ndarray, shape (n,)
+        For each damping ratio the highest bump over the sag.
+    limits : dict of str to ndarray, shape (n,)
+        By name, drawn dashed.
+    bump : tuple, optional
+        Height of a bump over the sag; speeds asked for and whether contact is lost at each;
+        critical speeds; and the ranges in which contact is kept, shape (m, 2). Drawn as a line
+        across, with marks, and thick where kept.
+    own : float, optional
+        The damping to stress: above its curve contact is lost.
+    heights : pair of float
+        Ends of the vertical axis.
+    """
+    ax = _chart_axes(axes_or_new(ax), nu, heights)
+    shades = colormaps["viridis"](np.linspace(0.85, 0.0, max(len(curves), 2)))
+    for shade, (zeta, eta) in zip(shades, curves.items()):
+        stressed = zeta == own
+        style = {"color": "k", "lw": 2.6} if stressed else {"color": shade, "lw": 1.5}
+        ax.plot(nu, eta, zorder=3 if stressed else 2.5, **style)
+        if len(curves) > 1:
+            label = "undamped" if zeta == 0 else rf"$\zeta$ = {zeta:.2g}"
+            weight = "bold" if stressed else "normal"
+            _at_the_end(ax, nu, eta, label, color=style["color"], fontsize=8.5, weight=weight)
+    if own is not None:
+        ax.fill_between(
+            nu, np.minimum(curves[own], heights[1]), heights[1], color=LOST, lw=0, zorder=0
+        )
+        words = {"transform": ax.transAxes, "color": "0.3", "fontsize": 10, "style": "italic"}
+        ax.text(0.42, 0.93, "contact lost", ha="center", **words)
+        ax.text(0.03, 0.05, "kept", **words)
+    for name, eta in dict(limits).items():
+        ax.plot(nu, eta, color="0.35", lw=1, ls="--", zorder=2)
+        _along(ax, nu, eta, name, color="0.25", fontsize=9.5, style="italic")
+    if bump is not None:
+        _bump_across(ax, *bump)
+    return ax
+
+
+def _bump_across(ax, eta, asked, lost, critical, kept):
+    ax.axhline(eta, color=COLOURS[1], lw=1.4, ls="--", zorder=3.5)
+    for span in kept:
+        ax.plot(span, [eta, eta], color=COLOURS[0], lw=3.2, solid_capstyle="butt", zorder=3.6)
+    ax.text(ax.get_xlim()[1], eta, " the bump", color=COLOURS[1], va="center", weight="bold")
+    ax.plot(critical, np.full(len(critical), eta), "D", color="k", ms=5, zorder=5)
+    marks = {"ls": "", "mec": "k", "ms": 8, "zorder": 4}
+    for gone, face, label in ((False, "white", "asked, kept"), (True, COLOURS[1], "asked, lost")):
+        places = np.asarray(asked)[np.asarray(lost) == gone]
+        if len(places):
+            ax.plot(places, np.full(len(places), eta), "o", mfc=face, label=label, **marks)
+    if len(critical):
+        ax.plot([], [], "D", color="k", ms=5, label="critical speed")
+    ax.legend(loc="lower left", bbox_to_anchor=(0.02, 0.1), frameon=True, edgecolor="none")
+
+
+def plot_comb(nu, exact, comb, alone, throw, ax=None):
+    """What the wheelbase does to an undamped robot.
+
+    Parameters
+    ----------
+    nu : ndarray, shape (n,)
+    exact, comb, alone, throw : ndarray, shape (n,)
+        Highest bumps over the sag: exact; by the formula for its free swing; of the robot with
+        half of its mass on each wheel; and by the line of both kicks in one.
+    """
+    heights = (0.7 * np.min(exact), 3 * np.max(throw))
+    ax = _chart_axes(axes_or_new(ax), nu, heights)
+    ax.plot(nu, throw, color="0.35", lw=1, ls="--", label="throw")
+    ax.plot(nu, alone, color="C2", ls="-.", label="no comb: $j = 1$")
+    ax.plot(nu, exact, color="C0", lw=3.2, alpha=0.6, label="exact")
+    ax.plot(nu, comb, color="k", ls=":", lw=1.6, label="comb, by formula")
+    ax.legend(loc="upper left")
+    return ax
+
+
+def plot_window(zeta, exact, limit, lines, bump, now, closes, ax=None):
+    """The height of the window in which faster is safer, against damping.
+
+    Parameters
+    ----------
+    zeta : ndarray, shape (n,)
+    exact, limit, lines : ndarray, shape (n,)
+        Highest bump over the sag that is crossed there: exact, by two limits, by two straight
+        lines.
+    bump, now, closes : float
+        Height of the bump, damping of the robot, and the damping at which the window closes.
+    """
+    heights = (0.3 * np.min(lines), 1.3 * np.max(limit))
+    ax = _chart_axes(axes_or_new(ax), zeta, heights)
+    ax.set(xlabel=r"damping $\zeta = c/\sqrt{2km}$")
+    ax.fill_between(zeta, exact, heights[0], color="#e3f1e8", lw=0, zorder=0)
+    ax.plot(zeta, lines, color="0.35", lw=1, ls="--", label="two straight lines")
+    ax.plot(zeta, limit, color="C0", ls="-.", label="with the spring")
+    ax.plot(zeta, exact, color="k", lw=2.4, label="exact")
+    ax.axhline(bump, color=COLOURS[1], lw=1.4, label="the bump")
+    ax.plot(closes, bump, "kD", ms=5, zorder=4, label="the window closes")
+    ax.plot(now, bump, "o", mec="k", mfc="white", ms=8, ls="", zorder=4, label="the robot")
+    words = {"transform": ax.transAxes, "color": "0.3", "style": "italic", "fontsize": 10}
+    ax.text(0.04, 0.06, "open", **words)
+    ax.text(0.96, 0.93, "closed", ha="right", **words)
+    ticks = [x for x in (0.01, 0.02, 0.05, 0.1, 0.2, 0.5) if zeta[0] <= x <= zeta[-1]]
+    ax.set_xticks(ticks, [f"{x:g}" for x in ticks])
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3)
+    return ax
+
+
+def plot_vehicles(nu, curves, paths, heights=(0.003, 8), ax=None):
+    """Vehicles that cross a bump, over the chart of a single wheel (j = 1).
+
+    Parameters
+    ----------
+    nu : ndarray, shape (n,)
+    curves : dict of float to ndarray, shape (n,)
+        For each damping ratio the highest bump over the sag.
+    paths : dict of str to (ndarray, float, ndarray)
+        For each vehicle its speeds, shape (i,), the height of its bump, and whether its own damping
+        loses contact, shape (i,).
+    heights : pair of float
+        Ends of the vertical axis.
+    """
+    ax = _chart_axes(axes_or_new(ax), nu, heights)
+    for i, (zeta, eta) in enumerate(curves.items()):
+        ax.plot(nu, eta, color=str(0.78 - 0.13 * i), lw=1.2, zorder=2)
+        style = {"color": str(0.55 - 0.1 * i), "fontsize": 8}
+        _at_the_end(ax, nu, eta, rf"$\zeta$ = {zeta:g}", **style)
+    by_height = sorted(paths.items(), key=lambda item: item[1][1])
+    for rank, (name, (speeds, eta, lost)) in enumerate(by_height):
+        level = np.full(len(speeds), eta)
+        kept = np.where(lost, np.nan, level)
+        gone = np.where(lost, level, np.nan)
+        ends = {"solid_capstyle": "butt", "zorder": 3}
+        ax.plot(speeds, kept, color=COLOURS[0], lw=4, label="kept" if not rank else None, **ends)
+        ax.plot(speeds, gone, color=COLOURS[1], lw=4, ls=LINES[5], zorder=3)
+        left = rank % 2 == 0  # neighbours in height are named on different sides
+        place = speeds[0] / 1.12 if left else speeds[-1] * 1.12
+        side = "right" if left else "left"
+        ax.text(place, eta, name, ha=side, va="center", fontsize=8, bbox=BOX, zorder=4)
+    ax.plot([], [], color=COLOURS[1], lw=4, ls=LINES[5], label="lost")
+    ax.legend(loc="lower left")
+    return ax

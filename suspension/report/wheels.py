@@ -1,0 +1,280 @@
+"""Sentences, tables and captions on wheels that weigh something, and on energy in the air."""
+
+import numpy as np
+
+from suspension.forces import WHEEL
+from suspension.report.rows import table
+from suspension.report.words import (
+    SPACE,
+    Caption,
+    count,
+    fixed,
+    join,
+    number,
+    percent,
+    quantity,
+    speed_list,
+)
+
+__all__ = [
+    "energy_caption",
+    "energy_sentence",
+    "free_wheels_caption",
+    "grams",
+    "heaviest_caption",
+    "heaviest_sentence",
+    "landing_table",
+    "limit_table",
+    "mass_table",
+    "surviving_rule",
+]
+
+NEAR = 0.05  # a rule is reached when the lightest wheel is this near, relative
+
+
+def grams(mass):
+    """A mass in kg as grams.
+
+    >>> grams(0.00817)
+    '8.2\\xa0g'
+    """
+    return quantity(1e3 * mass, "g", 2)
+
+
+def limit_table(v, rules, runs):
+    """Airtime and height of the first wheel to fly, by both rules and by wheels with mass.
+
+    Parameters
+    ----------
+    v : float
+        Speed, m/s.
+    rules : dict of str to Flight
+        Of a wheel without mass.
+    runs : sequence of (Tyre, Rolling)
+        Heavy wheels first.
+    """
+    rows = [
+        {
+            "wheel pair (g)": number(1e3 * tyre.mass, 2),
+            "tyre (N/m)": number(tyre.stiffness, 2),
+            "its damping ratio": number(tyre.damping / 2 / np.sqrt(tyre.mass * tyre.stiffness), 2),
+            **_air(run),
+        }
+        for tyre, run in runs
+    ]
+    rows += [
+        {"wheel pair (g)": "0", "tyre (N/m)": "rigid", "its damping ratio": name, **_air(flight)}
+        for name, flight in rules.items()
+    ]
+    return table(rows)
+
+
+def _air(run):
+    """Airtimes and heights of a Flight or a Rolling."""
+    return {
+        "in the air: rear, front (ms)": ", ".join(fixed(1e3 * t, 2) for t in run.airtime),
+        "highest: rear, front (mm)": ", ".join(fixed(1e3 * h, 2) for h in run.gaps.max(axis=1)),
+    }
+
+
+def surviving_rule(rules, lightest):
+    """Which rule of a wheel without mass the lightest wheels obey, a sentence.
+
+    Parameters
+    ----------
+    rules : dict of str to Flight
+        ``"follows"`` and ``"relaxes"``.
+    lightest : sequence of Rolling
+        The lightest wheel of each way to the limit.
+    """
+    away = {
+        name: max(np.abs(run.airtime / flight.airtime - 1).max() for run in lightest)
+        for name, flight in rules.items()
+        if (flight.airtime > 0).all()
+    }
+    if len(away) < len(rules):
+        return "With this spring no wheel flies here by one rule at least, and nothing is decided."
+    near = [name for name, part in away.items() if part <= NEAR]
+    far = [name for name in away if name not in near]
+    ways = count(len(lightest), "way")
+    if len(near) == 2:
+        return f"Both rules are the limit here, within {percent(max(away.values()))}: they agree."
+    if not near:
+        parts = join(f"{percent(part)} for the one that {name}" for name, part in away.items())
+        return f"These wheels are not light enough to decide: their airtime is off by {parts}."
+    return (
+        f"**The wheel that {near[0]} survives.** By {ways} to the limit the lightest wheels are "
+        f"in the air as long as it is, within {percent(away[near[0]])}; the one that {far[0]} is "
+        f"off by {percent(away[far[0]])}."
+    )
+
+
+def free_wheels_caption(v, masses):
+    """Caption of the heights of free wheels at `v` in m/s; `masses` of wheel pairs in kg."""
+    text = (
+        f"The front wheel at {v:g}{SPACE}m/s: its height above the ground by the two rules for a "
+        f"wheel without mass, and for wheel pairs of {join(grams(m) for m in masses)} on ever "
+        "stiffer tyres (grey, the lighter the darker)."
+    )
+    alt = (
+        f"Height of the front wheel against time at {v:g}{SPACE}m/s for wheel pairs of "
+        f"{join(grams(m) for m in masses)} and for two rules of a wheel without mass. The curves "
+        "of ever lighter wheels approach a limit."
+    )
+    return Caption(text, alt)
+
+
+def mass_table(speeds, masses, runs, flights):
+    """What wheels that weigh something do at each speed: the first loss, airtime and height.
+
+    Parameters
+    ----------
+    speeds, masses : sequence of float
+        m/s and kg.
+    runs : dict of (float, float) to Rolling
+        For each speed and mass.
+    flights : dict of float to Flight
+        Of wheels without mass, for each speed.
+    """
+    rows = []
+    for v in speeds:
+        for mass in (0.0, *masses):
+            run = runs[v, mass] if mass else flights[v]
+            if mass:
+                first = run.loss and (run.loss[0], v * run.loss[1])
+            else:
+                event = run.events[0] if run.events else None
+                first = event and (event.wheel, event.X)
+            rows.append(
+                {
+                    "v (m/s)": f"{v:g}",
+                    "wheel pair (g)": f"{1e3 * mass:g}",
+                    "contact": f"lost by the {WHEEL[first[0]]} wheel at X = {fixed(first[1], 3)} m"
+                    if first
+                    else "kept",
+                    **_air(run),
+                    "largest force (N)": fixed(run.N.max(), 1),
+                }
+            )
+    return table(rows)
+
+
+def heaviest_caption(asked):
+    """Caption of the mass that a wheel pair may have; `asked` speeds in m/s."""
+    text = (
+        "How heavy a wheel pair on a rigid tyre may be without leaving the ground. Below the curve "
+        "contact is kept, and where the field is blue to the top at any mass. Dashed: "
+        f"{speed_list(asked)}."
+    )
+    alt = (
+        "Mass of a wheel pair against speed, both on logarithmic axes: blue where contact is kept, "
+        f"red where it is lost. Dashed lines at {speed_list(asked)}."
+    )
+    return Caption(text, alt)
+
+
+def heaviest_sentence(regimes, v, mass, asked, robot):
+    """For which wheels the verdicts of a wheel without mass are true, and whether faster is safer.
+
+    Parameters
+    ----------
+    regimes : Regimes
+        Of wheels without mass.
+    v, mass : array_like, shape (n,)
+        Speeds, m/s, dense and within the regimes, and the heaviest wheel pairs there, kg.
+    asked : dict of float to float
+        The heaviest wheel pairs at the asked speeds.
+    robot : Robot
+    """
+    v, mass = np.asarray(v), np.asarray(mass)
+    words = []
+    free = [speed for speed, m in asked.items() if np.isinf(m)]
+    if free:
+        words.append(
+            f"At {speed_list(free)} the road nowhere falls away faster than gravity pulls, and a "
+            "wheel may weigh what it likes."
+        )
+    words += [
+        f"At {speed_list([speed])} a wheel pair may weigh {grams(m)}, {percent(m / robot.m)} of "
+        "the body, and no more."
+        for speed, m in asked.items()
+        if 0 < m < np.inf
+    ]
+    lost, kept = (regimes.spans(lost=which) for which in (True, False))
+    windows = [span for span in kept if len(lost) and span[0] >= lost[0, 1]]
+    if not windows:
+        words.append("Contact, once lost, is not found again at a higher speed.")
+        return " ".join(words)
+    low, high = windows[-1]
+    inside = (low < v) & (v < high)
+    most = mass[inside].max() if inside.any() else 0.0
+    where = f"from {number(low)} to {number(high)}{SPACE}m/s"
+    if np.isinf(most):
+        words.append(f"In a part of the window {where} a wheel may weigh what it likes.")
+    else:
+        words.append(
+            f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: "
+            f"in the window {where}, where wheels without mass keep contact, a heavier one leaves "
+            "the ground at every speed."
+        )
+    return " ".join(words)
+
+
+def energy_caption(v):
+    """Caption of the ribbon of energy at `v` in m/s."""
+    text = (
+        f"Where the energy goes at {v:g}{SPACE}m/s: the ribbon is as wide as the work of the road "
+        "up to there. Each ascent of the bump puts some in; what is left is handed to and fro "
+        "between motion, weight and springs, and ends as heat of the dampers. Orange at the foot: "
+        "a wheel is in the air."
+    )
+    alt = (
+        f"Stacked bands of energy against position at {v:g}{SPACE}m/s: heat of the dampers, motion "
+        "of the body, energy of weight and springs; their sum is the work of the road, which is "
+        "constant behind the bump."
+    )
+    return Caption(text, alt)
+
+
+def energy_sentence(energy, landings):
+    """How much the road puts in, what is heat at the end, and what landings have to do with it.
+
+    Parameters
+    ----------
+    energy : Energy
+    landings : sequence of Landing
+    """
+    work, heat = energy.work[-1], energy.heat[-1]
+    words = (
+        f"The road puts in {quantity(1e3 * work, 'mJ')}; at the end of the run "
+        f"{percent(heat / work)} of it is heat."
+    )
+    if not landings:
+        return f"{words} No wheel lands on the way."
+    taken = sum(landing.heat for landing in landings)
+    hardest = max(landings, key=lambda landing: landing.speed)
+    return (
+        f"{words} Between its {count(len(landings), 'landing')} and the lift-offs that follow them "
+        f"the dampers turn {percent(taken / heat)} of that heat. The fastest landing, of the "
+        f"{WHEEL[hardest.wheel]} wheel at {fixed(hardest.t, 3)}{SPACE}s, meets the ground at "
+        f"{quantity(hardest.speed, 'm/s', 2)}. A wheel without mass brings no momentum: the force "
+        "jumps, the momentum does not."
+    )
+
+
+def landing_table(landings):
+    """A row for each landing: when, how fast, force at once, and what follows on the ground."""
+    return table(
+        [
+            {
+                "t (s)": fixed(landing.t, 3),
+                "wheel": WHEEL[landing.wheel],
+                "meets at (m/s)": fixed(landing.speed, 2),
+                "force at once (N)": fixed(landing.force, 2),
+                "on the ground (s)": fixed(landing.end - landing.t, 3),
+                "impulse (N s)": fixed(landing.impulse, 2),
+                "heat (mJ)": fixed(1e3 * landing.heat, 1),
+            }
+            for landing in landings
+        ]
+    )
