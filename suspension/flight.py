@@ -220,7 +220,7 @@ def fly(
     history, legs, events = [], [], []
     t = 0.0
     while t < tfinal:
-        start, stop = t, stops[np.searchsorted(stops[:-1], t + SHORTEST)]
+        start, stop = t, float(stops[np.searchsorted(stops[:-1], t + SHORTEST)])
         springs = _spring_forces(robot, road, start, stop)
         on_this_leg = partial(gaps_and_forces, springs)
         gfunc = _gfunc(robot, springs, pressing)

@@ -14,7 +14,9 @@ from hypothesis import strategies as st
 
 from suspension.contact import normal_forces
 from suspension.course import RK4
-from suspension.flight import Event, fly, make_flight_gfunc
+from suspension.critical import critical_speeds
+from suspension.flight import Event, Flight, _first_switch, fly, make_flight_gfunc
+from suspension.least_force import margin
 from suspension.road import ISO_8608, FlatRoad, GaussianBump, RoadProfile, RoughRoad, road_input
 from suspension.robot import Robot
 from suspension.simulation import simulate
@@ -519,6 +521,56 @@ def test_a_robot_that_starts_in_the_air_lands_first(wheel):
     assert touching.events == (Event(1, "landing", 0, 0, 0), Event(2, "landing", 0, 0, 0))
 
 
+@pytest.mark.parametrize("wheel", MODELS)
+def test_a_wheel_that_falls_so_fast_that_its_damper_would_push_is_in_the_air_all_the_same(wheel):
+    height, speed = 0.001, 1.0
+    flight = fly(ROBOT, FlatRoad(), v=0, tfinal=0.01, w0=[height, -speed, 0, 0], wheel=wheel)
+    lands = (np.sqrt(speed**2 + 2 * ROBOT.g * height) - speed) / ROBOT.g
+    assert flight.legs[0][2] == (False, False)
+    assert [e[:2] for e in flight.events] == [(1, "landing"), (2, "landing")]
+    np.testing.assert_allclose([e.t for e in flight.events], lands, rtol=1e-9)
+
+
+@pytest.mark.parametrize("wheel", MODELS)
+def test_contact_is_lost_just_past_the_critical_speed_of_the_closed_form(wheel):
+    """A tenth of a millionth of a newton below zero is told from as much above."""
+    v = critical_speeds(ROBOT, BUMP, 0.3, 1)[0]
+    below, above = (v * (1 + 1e-8 * sign) for sign in (-1, 1))
+    if margin(ROBOT, BUMP, below) < 0:
+        below, above = above, below
+    assert -2e-7 < margin(ROBOT, BUMP, above) < 0
+    assert fly(ROBOT, BUMP, v=below, tfinal=0.35 / v, wheel=wheel).events == ()
+    events = fly(ROBOT, BUMP, v=above, tfinal=0.35 / v, wheel=wheel).events
+    assert [e.kind for e in events] == ["lift-off", "landing"]
+    assert 0 < events[1].t - events[0].t < 1e-4
+
+
+def test_a_force_of_nothing_but_roundoff_switches_no_wheel():
+    flight = fly(Robot(800, 800, g=0), GaussianBump(centre=0.9), v=1.2, tfinal=0.4)
+    assert 0 < flight.N.max() < 1e-20 and flight.events == ()
+    # A road like the one above, whose waves the integrator cannot tell from level ground.
+    flight = fly(
+        Robot(800, 800, g=0),
+        lambda x: (1e-15 * np.sin(100 * x), 1e-13 * np.cos(100 * x)),
+        v=1.2,
+        tfinal=0.4,
+        resolution=0.01,
+    )
+    assert flight.events == ()
+
+
+@pytest.mark.parametrize("at", [0.5, 0.25, 0.03125, 0.1])
+@pytest.mark.parametrize("side", [np.less, np.less_equal])
+def test_a_jump_is_found_wherever_an_interval_is_halved(at, side):
+    def gaps_and_forces(t):
+        f = np.where(side(t, at), 1.0, -2.0)
+        return np.zeros((2, *np.shape(t))), np.stack([f, np.ones_like(f)])
+
+    t, switched = _first_switch(gaps_and_forces, np.full(2, 1e-9), np.array([True, True]), 0.0, 1.0)
+    assert t == pytest.approx(at, abs=1e-15) and switched.tolist() == [True, False]
+    assert gaps_and_forces(t)[1][0] < 0  # just after it
+
+
 def test_a_wheel_that_starts_pulled_off_relaxes_from_where_it_stands():
     flight = fly(LOPSIDED, FlatRoad(), v=0, tfinal=0.02, w0=[-0.005, 1, 0, 0], wheel="relaxes")
     assert flight.events == () and flight.legs == ((0, 0.02, (False, False)),)
@@ -580,6 +632,16 @@ def test_settled():
     assert (np.abs(quiet.N[:, np.argmax(after) - 1] / rest - 1) > 0.05).any()
     assert quiet.settled(ROBOT, fraction=0.01) > t and quiet.settled(ROBOT, fraction=2) == 0
     assert np.isnan(run(ROBOT, 1.2, 0.68, "follows").settled(ROBOT))
+
+
+def test_settled_is_the_first_sample_from_which_no_force_is_away_any_more():
+    rest = ROBOT.m * ROBOT.g / 2
+    N = rest * np.array([[1.2, 1, 1.06, 1.04, 1, 1], [1, 1, 1, 0.96, 1, 1.04]])
+    legs = ((0.0, 5.0, (True, True)),)
+    flight = Flight(np.arange(6.0), np.zeros((4, 6)), N, 0 * N, (), legs, 1.0)
+    assert flight.settled(ROBOT) == 3
+    assert flight.settled(ROBOT, 0.07) == 1 and flight.settled(ROBOT, 0.3) == 0
+    assert np.isnan(flight.settled(ROBOT, 0.03))
 
 
 def test_settled_refuses_what_is_no_robot_by_name():
@@ -655,6 +717,9 @@ def test_gfunc_gives_the_forces_it_uses():
     np.testing.assert_allclose(wdot, [0.1, N1 / ROBOT.m - ROBOT.g, 0, -N1 * ROBOT.L1 / ROBOT.Izz])
     falls = gfunc(np.array([0.001, -1, 0, 0]), 0, 0)  # the damper would push, were it on the ground
     np.testing.assert_allclose(falls[0], [-1, -ROBOT.g, 0, 0])
+    pulled = gfunc(np.array([-0.001, 1, 0, 0]), 0, 0)  # on the ground, its damper pulls
+    np.testing.assert_allclose(pulled[0], [1, -ROBOT.g, 0, 0])
+    assert pulled[1:] == (0, 0)
     linear = make_flight_gfunc(ROBOT, BUMP, (True, True), start=0.04)
     u = road_input(ROBOT, BUMP, 1.2, 0.1)
     np.testing.assert_allclose(linear(w, 0.06, 1.2)[0], ROBOT.A @ w + ROBOT.B @ u + ROBOT.e)
