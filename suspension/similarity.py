@@ -335,7 +335,7 @@ def comb(nu, j, lam):
 
     The kicks come ``2 lam / nu`` apart, in or out of step with the swing of the first. They leave
     the heave with an amplitude of ``cos(lam / nu)`` and the pitch with one of
-    ``sin(lam / (sqrt(j) nu)) / sqrt(j)`` kicks, each weakened as it swings while the bump passes:
+    ``sin(lam / (sqrt(j) nu)) / sqrt(j)`` kicks, each weakened as it swings while the bump passes::
 
         1 / eta* = sqrt(2 pi) / nu (|cos(lam / nu)| exp(-1 / (2 nu^2))
                    + |sin(lam / (sqrt(j) nu))| exp(-1 / (2 j nu^2)) / sqrt(j)).
