@@ -1,7 +1,8 @@
 """The chart of the highest bumps: dimensionless speed against height, for every robot."""
 
+from itertools import cycle
+
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from suspension.figures.style import COLOURS, LINES, axes_or_new
@@ -11,6 +12,8 @@ __all__ = ["plot_chart", "plot_comb", "plot_vehicles", "plot_window"]
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
 LOST = "#fbe3d6"
+# From weak to strong damping, of one lightness: they are read on a light and on a dark page.
+SHADES = ("#857a00", "#2e8b45", "#1a8a8a", "#3b82c4", "#8a70d6", "#c0549e")
 BOX = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
 
 
@@ -72,8 +75,7 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.03, 300), 
         Ends of the vertical axis.
     """
     ax = _chart_axes(axes_or_new(ax), nu, heights)
-    shades = colormaps["viridis"](np.linspace(0.85, 0.0, max(len(curves), 2)))
-    for shade, (zeta, eta) in zip(shades, curves.items()):
+    for shade, (zeta, eta) in zip(cycle(SHADES), curves.items()):
         stressed = zeta == own
         style = {"color": "k", "lw": 2.6} if stressed else {"color": shade, "lw": 1.5}
         ax.plot(nu, eta, zorder=3 if stressed else 2.5, **style)
