@@ -531,7 +531,8 @@ TABLE = [
     Row(
         "full_geometry",
         full_geometry,
-        {"robot": ROBOT, "bump": BUMP, "critical": CRITICAL} | {"within": 0.01, "distance": 1.25},
+        {"robot": ROBOT, "bump": BUMP, "critical": CRITICAL_SPEED}
+        | {"within": 0.01, "distance": 1.25},
         {
             "critical": [*NOT_POSITIVE, 1.2, 10],
             "within": [*NOT_POSITIVE, 1.5],

@@ -48,6 +48,7 @@ def test_there_a_rigid_body_just_touches():
         assert below * above < 0
 
 
+@pytest.mark.slow
 def test_without_pitch_there_is_no_difference():
     # A body of very large inertia does not turn, so both geometries are the same.
     heavy = replace(ROBOT, Izz=1e3)
@@ -55,6 +56,7 @@ def test_without_pitch_there_is_no_difference():
     assert full_geometry(heavy, BUMP, v) == pytest.approx(v, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_change_is_of_second_order_in_the_angle():
     # Bump and gravity are scaled alike, so all motions are, and every angle.
     low = GaussianBump(height=BUMP.height / 16)
@@ -66,6 +68,7 @@ def test_the_change_is_of_second_order_in_the_angle():
     assert small == pytest.approx(change / 16**2, rel=0.2)
 
 
+@pytest.mark.slow
 def test_where_there_is_none_nearby_none_is_told():
     v = critical_speeds(ROBOT, BUMP, 0.1, 1)[0]
     assert full_geometry(ROBOT, BUMP, v, within=0.01) is None
