@@ -34,7 +34,13 @@ from suspension.figures.regression import (
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
 from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
-from suspension.figures.speeds import plot_margin, plot_margin_map, plot_sensitivities, plot_travel
+from suspension.figures.speeds import (
+    plot_margin,
+    plot_margin_map,
+    plot_sampled_margin,
+    plot_sensitivities,
+    plot_travel,
+)
 from suspension.figures.stability import plot_growth, plot_near_zero, plot_stability
 
 __all__ = [
@@ -72,6 +78,7 @@ __all__ = [
     "plot_rms",
     "plot_road_signal",
     "plot_rough_ride",
+    "plot_sampled_margin",
     "plot_seen_mode",
     "plot_sensitivities",
     "plot_slopes",

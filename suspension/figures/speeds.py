@@ -7,7 +7,14 @@ from matplotlib.ticker import NullLocator
 from suspension.figures.style import COLOURS, LINES, axes_or_new
 from suspension.forces import WHEEL
 
-__all__ = ["plot_margin", "plot_margin_map", "plot_sensitivities", "plot_travel", "speed_axis"]
+__all__ = [
+    "plot_margin",
+    "plot_margin_map",
+    "plot_sampled_margin",
+    "plot_sensitivities",
+    "plot_travel",
+    "speed_axis",
+]
 
 
 SHADE = "#fbe3d6"  # of speeds at which contact is lost
@@ -86,6 +93,28 @@ def plot_margin(v, N, regimes, asked=(), beyond=(), ax=None):
     _labels_apart(ax, critical, [f"{speed:.3g}" for speed in critical], **style)
     ax.set(ylabel="least normal force (N)")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=5, columnspacing=1.2)
+    return ax
+
+
+def plot_sampled_margin(v, sampled, exact, ax=None):
+    """The margin against speed, exact and as the least of samples.
+
+    Parameters
+    ----------
+    v : array_like, shape (n,)
+        Speeds, m/s, in order.
+    sampled : dict of float to array_like, shape (n,)
+        For each time between two samples, s, the least of them, N.
+    exact : array_like, shape (n,)
+        N.
+    """
+    ax = axes_or_new(ax)
+    ax.axhline(0, color="0.3", lw=0.8)
+    for i, (dt, least) in enumerate(sampled.items()):
+        ax.plot(v, least, ls=LINES[i % len(LINES)], label=f"a sample every {1000 * dt:g} ms")
+    ax.plot(v, exact, color="black", lw=2, label="exact")
+    ax.set(xlabel="speed $v$ (m/s)", ylabel="margin (N)", xlim=(v[0], v[-1]))
+    ax.legend()
     return ax
 
 

@@ -382,7 +382,7 @@ def order_sentence(v, orders):
     if v is None:
         return (
             "With this spring no wheel lands at the asked speeds, so there is no switch to study "
-            "there. [Part VI](../notebooks/06-critical-speeds.ipynb) says where one does."
+            "there. [Part VI](../notebooks/06-how-sure.ipynb) says where one does."
         )
     blind, located = orders
     words = (

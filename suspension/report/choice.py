@@ -95,7 +95,7 @@ def gains_caption(speeds, base):
 def ripples_caption(v):
     """Caption of the margin above the swings left behind, over speeds `v`, m/s."""
     return Caption(
-        "Above: the margin of Part VI. Below: the swings that the bump leaves behind in heave and "
+        "Above: the margin of Part V. Below: the swings that the bump leaves behind in heave and "
         "pitch, from its spectrum (lines), from the closed form (symbols), and without the comb "
         "(dotted).",
         f"Two panels over speed from {number(v[0])} to {number(v[-1])}{SPACE}m/s. Above the "

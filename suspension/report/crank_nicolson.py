@@ -109,7 +109,7 @@ def swing(robot, scheme, dt):
         value = "what the method computes there is bounded, and wrong"
     return (
         f"{start} A step of {quantity(dt, 's', 1)} spans {number(part, 2)} swings of the "
-        f"fastest mode: {value}. [Part V](../notebooks/05-accuracy.ipynb) measures how wrong."
+        f"fastest mode: {value}. [The appendix](../notebooks/20-accuracy.ipynb) measures how wrong."
     )
 
 

@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part VI and the landing page: at which speeds contact is lost.
+"""Sentences, tables and captions of Parts V and VI and the landing page: when contact is lost.
 
 `regimes` is a `suspension.contact.Regimes` over the speeds looked at, `beyond` what
 `suspension.travel.overtravel` finds there: the ranges in which a spring is compressed further than
@@ -11,7 +11,6 @@ import numpy as np
 
 from suspension.contact import is_lost
 from suspension.forces import WHEEL
-from suspension.problem import DISTANCE
 from suspension.report.data import existence, speed_digits
 from suspension.report.rows import table
 from suspension.report.words import (
@@ -32,14 +31,13 @@ from suspension.report.words import (
 
 __all__ = [
     "Asked",
-    "afterwards",
     "balance_table",
     "beyond_words",
     "confidence_note",
     "confidence_table",
     "critical_table",
-    "crossings",
     "doubt",
+    "full_geometry",
     "landing_data",
     "landing_opening",
     "lesson",
@@ -121,28 +119,6 @@ def verdict(regimes, beyond=()):
             "than it was measured."
         )
     return " ".join(words)
-
-
-def crossings(regimes):
-    """How often the margin crosses zero, and whether going faster ever makes a robot safer."""
-    crossed = len(regimes.critical)
-    looked = "from {:g} to {:g}".format(*regimes.edges[[0, -1]]) + f"{SPACE}m/s"
-    if not crossed:
-        side = "below" if regimes.lost[0] else "above"
-        return f"With this spring the margin does not cross zero at all {looked}: it stays {side}."
-    times = {1: "once", 2: "twice"}.get(crossed) or count(crossed, "time")
-    words = f"With this spring the margin crosses zero {times} {looked}, and"
-    upward = [
-        name
-        for name, lost in zip(distinct(regimes.edges)[1:-1], regimes.lost[1:], strict=True)
-        if not lost
-    ]
-    if not upward:
-        return f"{words} only downwards."
-    return (
-        f"{words} upwards at {join(upward)}{SPACE}m/s: a little above, the robot is safer than a "
-        "little below."
-    )
 
 
 def beyond_words(regimes, beyond):
@@ -287,52 +263,19 @@ def _window(regimes):
     return spans[-1] if spans else None
 
 
-def afterwards(changed, speeds, extra):
-    """What happens after the way of the problem set.
-
-    Parameters
-    ----------
-    changed : sequence of float
-        Speeds, m/s, of those looked at, at which the verdict is another one in a longer run.
-    speeds : array_like
-        All that were looked at.
-    extra : float
-        How much longer the runs were, s.
-    """
-    end = f"X = {DISTANCE:g}{SPACE}m"
-    looked = (
-        f"continued by {extra:g}{SPACE}s, at {count(len(speeds), 'speed')} from "
-        f"{speeds[0]:.3g} to {speeds[-1]:.3g}{SPACE}m/s"
-    )
-    if not len(changed):
-        return (
-            f"Does it matter that the runs end at {end}? No: {looked}, no verdict changes. "
-            "What is going to happen happens on the way."
-        )
-    return (
-        f"Does it matter that the runs end at {end}? **Yes:** {looked}, the verdict turns "
-        f"from kept to lost at {_few(changed)}. There contact is lost in the swing "
-        "that the bump leaves behind, beyond the end of the asked runs."
-    )
-
-
-def _few(speeds):
-    if len(speeds) <= 3:
-        return speed_list(speeds)
-    ends = f"{number(min(speeds))} and {number(max(speeds))}{SPACE}m/s"
-    return f"{count(len(speeds), 'speed')} between {ends}"
-
-
-def critical_table(intervals):
+def critical_table(intervals, full):
     """Critical speeds with their intervals, and where they do not exist.
 
     Parameters
     ----------
     intervals : sequence of suspension.uncertainty.CriticalSpeed
+    full : sequence of float or None
+        Each of them in the full geometry, m/s, as `suspension.small_angle.full_geometry` finds it;
+        None where there is none.
     """
     if not intervals:
         return "There is no critical speed in the range, whatever the stiffness in its interval."
-    rows = [_critical_row(c) for c in intervals]
+    rows = [_critical_row(c, v) for c, v in zip(intervals, full, strict=True)]
     if all(c.everywhere for c in intervals):
         return table([{name: row[name] for name in row if name != "note"} for row in rows])
     note = (
@@ -343,10 +286,15 @@ def critical_table(intervals):
     return f"{table(rows)}\n\n{note}"
 
 
-def _critical_row(critical):
+def _digits(critical):
+    """How many digits of a critical speed its interval leaves."""
+    relative = (critical.high - critical.low) / critical.high
+    return int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
+
+
+def _critical_row(critical, full):
     speed, low, high = critical.speed, critical.low, critical.high
-    relative = (high - low) / high
-    digits = int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
+    digits = _digits(critical)
     half = "–"
     if speed is not None and critical.everywhere:
         half = percent((high - low) / 2 / speed) if high > low else "0"
@@ -354,8 +302,50 @@ def _critical_row(critical):
         "critical speed (m/s)": "–" if speed is None else number(speed, digits),
         "95 % interval (m/s)": f"{number(low, digits)} to {number(high, digits)}",
         "relative half-width": half,
+        "in the full geometry (m/s)": "–" if full is None else number(full, digits),
         "note": existence(critical) or "–",
     }
+
+
+def full_geometry(intervals, full):
+    """Whether the small pitch costs a critical speed more than its interval allows.
+
+    Parameters
+    ----------
+    intervals, full
+        As in `critical_table`.
+    """
+    pairs = [(c, v) for c, v in zip(intervals, full, strict=True) if c.speed is not None]
+    if not pairs:
+        return "There is no critical speed that another geometry could move."
+    words, outside = [], []
+    for critical, moved in pairs:
+        digits = _digits(critical)
+        name = f"{number(critical.speed, digits)}{SPACE}m/s"
+        if moved is None:
+            words.append(f"{name} has no counterpart nearby")
+            outside.append(name)
+            continue
+        change = moved / critical.speed - 1
+        sign = "+" if change > 0 else ""
+        becomes = f"becomes {number(moved, digits)}{SPACE}m/s ({sign}{percent(change)})"
+        same = number(moved, digits) == number(critical.speed, digits)
+        words.append(f"{name} {'stays' if same else becomes}")
+        if not critical.low <= moved <= critical.high:
+            outside.append(name)
+    told = f"In the full geometry {join(words)}."
+    if not any(c.high > c.low for c, _ in pairs):
+        return f"{told} The readings leave nothing open here, so this is all the error there is."
+    if not outside:
+        inside = "It stays inside its interval" if len(pairs) == 1 else "Each stays in its interval"
+        return f"{told} {inside}: here the small angle costs less than the readings leave open."
+    rest = ""
+    if len(outside) < len(pairs):
+        rest = " The rest stay inside." if len(pairs) - len(outside) > 1 else " The other stays in."
+    return (
+        f"{told} **Outside** the 95{SPACE}% interval: {join(outside)}. There the small angle costs "
+        f"more than the readings leave open.{rest}"
+    )
 
 
 def other_readings(by_stiffness):

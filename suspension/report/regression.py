@@ -310,7 +310,7 @@ def summary(fit):
         "An interval is only as good as the statement it belongs to: "
         f"{join(['one coefficient', 'two', 'all'], 'or')}.",
         "This uncertainty travels on: it decides how well "
-        "[the critical speeds](../notebooks/06-critical-speeds.ipynb) are known.",
+        "[the critical speeds](../notebooks/06-how-sure.ipynb) are known.",
     ]
     return "\n".join(f"- {point}" for point in points)
 

@@ -1,8 +1,9 @@
-"""Sentences, tables and captions of Part V: runs compared with the closed form."""
+"""Sentences, tables and captions of Part V and the appendix: runs beside the closed form."""
 
 import numpy as np
 
 from suspension import accuracy
+from suspension.contact import is_lost
 from suspension.report.rows import table
 from suspension.report.words import SPACE, Caption, count, fixed, join, number, quantity, speed_list
 
@@ -17,6 +18,8 @@ __all__ = [
     "observed_orders",
     "panels",
     "power",
+    "sampled_caption",
+    "sampled_verdicts",
     "seen_mode_caption",
     "witness",
     "work_account",
@@ -53,6 +56,49 @@ def heave_caption(heave, bump):
         f"{count(len(heave), 'speed')}. The largest rises are {rises}."
     )
     return Caption(text, alt)
+
+
+def sampled_caption(speeds, sampled):
+    """Caption of margins that were read from samples; arguments as in `sampled_verdicts`."""
+    steps = join(f"{number(1000 * dt, 2)}{SPACE}ms" for dt in sampled)
+    looked = f"from {number(speeds[0])} to {number(speeds[-1])}{SPACE}m/s"
+    return Caption(
+        f"The margin {looked}: the least of the samples of one and the same run, taken every "
+        f"{steps}, and the exact margin (black).",
+        f"Margin against speed, {looked}. The exact margin is one smooth curve. The curves read "
+        f"from samples every {steps} lie on it or above it.",
+    )
+
+
+def sampled_verdicts(speeds, sampled, exact):
+    """How many verdicts are wrong when the margin is read from samples.
+
+    Parameters
+    ----------
+    speeds : array_like, shape (n,)
+        m/s, in order.
+    sampled : dict of float to array_like, shape (n,)
+        For each time between two samples, s, the least of them, N.
+    exact : array_like, shape (n,)
+        The least force at any time, N.
+    """
+    lost = is_lost(exact)
+    wrong = {dt: int((is_lost(least) != lost).sum()) for dt, least in sampled.items()}
+    looked = (
+        f"{count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])}{SPACE}m/s"
+    )
+    if not any(wrong.values()):
+        return (
+            f"At {looked} no verdict is wrong. That is luck, not method: with this spring no dip "
+            "at these speeds is shorter than the time between two samples."
+        )
+    each = join(
+        f"{n} with a sample every {number(1000 * dt, 2)}{SPACE}ms" for dt, n in wrong.items()
+    )
+    return (
+        f"Of the verdicts at {looked} so many are wrong: {each}. The samples say "
+        "kept where a wheel leaves the ground."
+    )
 
 
 def witness(differences, tolerance):
@@ -376,9 +422,9 @@ def missed_table(speeds, missed, shown=None, force=None):
     if shown is not None:
         parts.append(
             f"The figure shows {speed_list([shown])}, where the force falls to "
-            f"{number(force, 2)}{SPACE}N. [The exact "
-            "margin](../notebooks/06-critical-speeds.ipynb) does "
-            "not depend on where a method happens to stop."
+            f"{number(force, 2)}{SPACE}N. [The exact margin]"
+            "(../notebooks/05-how-we-know.ipynb#the-exact-margin) does not depend on where a "
+            "method happens to stop."
         )
     return "\n\n".join(parts)
 

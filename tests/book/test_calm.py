@@ -189,7 +189,7 @@ def test_the_first_paint_waits_for_nothing_but_page_and_style(browser, book, sit
 
 
 def test_every_formula_finds_its_fonts(browser, strict_site):
-    for page in ("book/model", "notebooks/03-runge-kutta", "notebooks/05-accuracy"):
+    for page in ("book/model", "notebooks/03-runge-kutta", "notebooks/05-how-we-know"):
         with opened(browser, f"{strict_site}{page}.html", 1280) as (tab, _):
             asked, there = set(tab.evaluate(ASKED)), set(tab.evaluate(THERE))
         assert len(asked) > 2 and asked <= there

@@ -144,7 +144,7 @@ def names(output):
     return [given["name"]] if given else []
 
 
-FIT, VERDICTS, LAW = "01-regression", "06-critical-speeds", "08-measured-spring"
+FIT, VERDICTS, LAW = "01-regression", "06-how-sure", "08-measured-spring"
 PARTS = {
     # The spring is another one, so everything is.
     soft_spring: None,

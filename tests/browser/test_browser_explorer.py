@@ -1204,7 +1204,7 @@ def test_a_phrase_on_another_notebooks_picture_waits_until_it_is_run(browser, la
         cells=[
             new_markdown_cell(
                 "[drive it](../notebooks/10-drive.ipynb#explore:v=3.3&k=700)\n\n"
-                "[the fit](../notebooks/06-critical-speeds.ipynb#fig-sensitivity)"
+                "[the fit](../notebooks/06-how-sure.ipynb#fig-sensitivity)"
             )
         ]
     )

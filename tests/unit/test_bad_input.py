@@ -41,6 +41,7 @@ from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
 from suspension.road import RoadProfile, RoughRoad
+from suspension.small_angle import full_geometry
 from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
@@ -52,6 +53,7 @@ GIGABYTES = 1.5  # of addresses, not of memory
 ENOUGH = 30  # bad values for every function
 ROBOT = suspension.Robot(800, 800)
 BUMP = suspension.GaussianBump()
+CRITICAL_SPEED = float(suspension.critical_speeds(ROBOT, BUMP, 0.3, 1)[0])  # m/s
 RK4 = suspension.RK4
 ROUGH = RoughRoad(1e-5, length=1, shortest=0.2)
 DATA = springs.load_spring_data(ROOT / "data" / "spring_data.csv")
@@ -525,6 +527,18 @@ TABLE = [
         },
         {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "road": NOT_AN_OBJECT}
         | {"law": but(NOT_A_LAW, None)},
+    ),
+    Row(
+        "full_geometry",
+        full_geometry,
+        {"robot": ROBOT, "bump": BUMP, "critical": CRITICAL_SPEED}
+        | {"within": 0.01, "distance": 1.25},
+        {
+            "critical": [*NOT_POSITIVE, 1.2, 10],
+            "within": [*NOT_POSITIVE, 1.5],
+            "distance": [*but(NOT_POSITIVE, None), 1e9],
+        },
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
     ),
     Row(
         "RoughRoad",

@@ -44,6 +44,7 @@ from suspension.figures import (
     plot_rms,
     plot_road_signal,
     plot_rough_ride,
+    plot_sampled_margin,
     plot_seen_mode,
     plot_sensitivities,
     plot_slopes,
@@ -119,6 +120,9 @@ ON_ONE = {
     ),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
+    ),
+    "plot_sampled_margin": lambda ax: plot_sampled_margin(
+        V, {0.001: FORCES[1], 0.0003: FORCES[1] - 0.1}, FORCES[1] - 0.2, ax
     ),
     "plot_measured_margins": lambda ax: plot_measured_margins(
         V, MARGINS, {"line": CRITICAL, "stop": []}, [1.2], ax

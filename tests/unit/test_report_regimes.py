@@ -1,4 +1,4 @@
-"""Sentences of Part VI and the landing page, for springs and robots of every kind."""
+"""Sentences of Parts V and VI and the landing page, for springs and robots of every kind."""
 
 import re
 
@@ -109,7 +109,6 @@ def test_captions_tables_and_doubts_are_sound(regimes, beyond, at_rest):
         part.landing_opening(regimes),
         part.doubt(regimes, beyond, asked(0.6, 1.39), at_rest, DELTA_MAX, 0.15),
         part.doubt(regimes, beyond, asked(1.39), at_rest, DELTA_MAX, 0.15),
-        part.crossings(regimes),
         part.lesson(regimes, parts),
     ]
     for text in texts:
@@ -246,13 +245,44 @@ def test_a_critical_speed_that_ends_is_told_so():
     whole = CriticalSpeed(7.85, 7.35, 8.36, None, None)
     ends = CriticalSpeed(0.4449, 0.4423, 0.4461, None, End(990.4, 0.446, "pair"))
     elsewhere = CriticalSpeed(None, 0.407, 0.440, None, End(385.2, 0.44, "pair"))
-    table = part.critical_table([whole])
+    table = part.critical_table([whole], [7.846])
     assert "note" not in plain(table) and "6.4" in plain(table)
-    table = part.critical_table([whole, ends, elsewhere])
+    table = part.critical_table([whole, ends, elsewhere], [7.846, 0.4521, None])
     assert "exists only for k < 990.4" in plain(table)
     assert "no confidence level" in plain(table)
     assert not faults(table)
-    assert "no critical speed" in plain(part.critical_table([]))
+    assert "no critical speed" in plain(part.critical_table([], []))
+
+
+FIRST = CriticalSpeed(0.4363, 0.4346, 0.4381, None, None)
+SECOND = CriticalSpeed(7.85, 7.35, 8.36, None, None)
+KNOWN = CriticalSpeed(7.85, 7.85, 7.85, None, None)
+GONE = CriticalSpeed(None, 0.407, 0.440, None, None)
+
+
+@pytest.mark.parametrize(
+    ("intervals", "full", "words", "never"),
+    [
+        (
+            [FIRST, SECOND],
+            [0.44383, 7.8465],
+            "0.4363 m/s becomes 0.4438 m/s (+1.7 %) and 7.85 m/s stays. **Outside** the 95 % "
+            "interval: 0.4363 m/s.",
+            "reading leave nothing",
+        ),
+        ([FIRST, SECOND], [0.4379, 7.9], "Each stays in its interval", "utside"),
+        ([FIRST, GONE], [0.4379, None], "It stays inside its interval", "utside"),
+        ([FIRST, SECOND], [None, 8.5], "no counterpart nearby and 7.85 m/s becomes", "stay in"),
+        ([FIRST, SECOND], [None, 8.5], "interval: 0.4363 m/s and 7.85 m/s. There", "The rest"),
+        ([KNOWN], [7.9], "this is all the error there is", "utside"),
+        ([GONE], [None], "no critical speed", "becomes"),
+        ([], [], "no critical speed", "becomes"),
+    ],
+)
+def test_the_full_geometry_is_told_inside_and_outside_the_interval(intervals, full, words, never):
+    text = plain(part.full_geometry(intervals, full))
+    assert words in text and never not in text
+    assert not faults(text)
 
 
 def by_stiffness(*speeds):
@@ -304,14 +334,6 @@ def test_what_rests_on_a_spring_beyond_its_range_is_marked():
     assert not faults(slow + fast) and not faults(note)
 
 
-def test_what_happens_after_the_course():
-    speeds = np.geomspace(0.1, 30, 100)
-    assert "no verdict changes" in plain(part.afterwards([], speeds, 2.0))
-    changed = part.afterwards([1.2, 5.0], speeds, 2.0)
-    assert "**Yes:**" in plain(changed) and "1.2 and 5 m/s" in plain(changed)
-    assert "12 speeds between" in plain(part.afterwards(list(range(1, 13)), speeds, 2.0))
-
-
 def test_the_map_names_its_stiffness():
     caption = part.map_caption(fitted(2300).slope, [460, 4370], (0.25, 1.2), False)
     assert "slope at zero" in plain(caption.text) and "Hatched" not in plain(caption.text)
@@ -327,21 +349,4 @@ def test_real_data_are_not_called_synthetic():
 def test_each_critical_speed_has_its_strongest_parameter():
     text = part.strongest([0.436, 7.85], {"$k$": [0.1, 1.38], "$c$": [-0.5, 0.3]})
     assert "$c$ at 0.436 m/s" in plain(text) and "$k$ at 7.85 m/s" in plain(text)
-    assert not faults(text)
-
-
-@pytest.mark.parametrize(
-    ("regimes", "words"),
-    [
-        (KEPT, "does not cross zero at all from 0.1 to 30 m/s: it stays above"),
-        (LOST, "it stays below"),
-        (RISES, "crosses zero once from 0.1 to 30 m/s, and only down"),
-        (FALLS, "crosses zero once from 0.1 to 30 m/s, and upwards at 0.500 m/s"),
-        (WINDOW, "three times from 0.1 to 30 m/s, and upwards at 7.85 m/s"),
-        (HAIR, "and upwards at 0.4449 m/s"),
-    ],
-)
-def test_every_way_to_cross_zero_has_its_words(regimes, words):
-    text = part.crossings(regimes)
-    assert words in plain(text)
     assert not faults(text)

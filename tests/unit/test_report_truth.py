@@ -1,4 +1,6 @@
-"""Sentences of Part V, for springs and robots of every kind."""
+"""Sentences of Part V and the appendix, for springs and robots of every kind."""
+
+import re
 
 import numpy as np
 import pytest
@@ -148,3 +150,19 @@ def test_dips_that_are_seen_and_dips_that_are_not():
     assert "does not see" in plain(part.dip_caption(21.1, True).text)
     assert "seen by" in plain(part.dip_caption(0.527, False).text)
     assert not faults(part.dip_caption(0.527, False).text)
+
+
+def test_verdicts_read_from_samples_are_counted():
+    speeds, exact = np.array([19.0, 20.0, 21.0]), np.array([0.2, -0.1, -0.3])
+    sampled = {0.001: exact + 0.4, 0.0003: exact + 0.15, 0.0001: exact}
+    text = plain(part.sampled_verdicts(speeds, sampled, exact))
+    assert "three speeds from 19.0 to 21.0 m/s" in text
+    assert re.findall(r"(\d) with a sample every ([\d.]+) ms", text) == [
+        ("2", "1.0"),
+        ("1", "0.30"),
+        ("0", "0.10"),
+    ]
+    kept = plain(part.sampled_verdicts(speeds, {0.001: exact + 0.01}, exact))
+    assert "no verdict is wrong" in kept
+    for told in (text, kept, *part.sampled_caption(speeds, sampled)):
+        assert not faults(told)
