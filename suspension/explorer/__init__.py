@@ -21,6 +21,7 @@ from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range
 from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
+from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.flight import fly
@@ -207,7 +208,9 @@ class Explorer(anywidget.AnyWidget):
 
 
 class ExplorerBox(ipywidgets.VBox):
-    """A frame around an `Explorer`; ``box.explorer`` is the latter.
+    """A frame around an `Explorer` and the sliders of ipywidgets for speed and step above it.
+
+    ``box.explorer`` is the former, ``box.sliders`` are the latter, by name: "v" and "dt".
 
     It is displayed twice: as a still picture, which is also the explorer of a built page and what
     a notebook shows before anything runs, and as the widget, which hides the still picture as
@@ -216,7 +219,8 @@ class ExplorerBox(ipywidgets.VBox):
 
     def __init__(self, explorer):
         self.explorer = explorer
-        super().__init__([explorer])
+        above, self.sliders = row(explorer)
+        super().__init__([above, explorer])
         self.add_class("suspension-explorer-frame")
 
     def _repr_mimebundle_(self, **kwargs):

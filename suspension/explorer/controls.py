@@ -1,4 +1,7 @@
-"""The sliders and buttons as HTML, the same ones in JupyterLab and in a page without a kernel."""
+"""The sliders and buttons as HTML, for a page without a kernel and for JupyterLab.
+
+There, the sliders of speed and step are those of ipywidgets instead, see `sliders.py`.
+"""
 
 from html import escape
 from typing import NamedTuple
@@ -36,8 +39,8 @@ def native(explorer):
     """The controls as HTML: a range and a number for each slider, buttons for the schemes.
 
     A script fills in the values and moves them; without it they are not shown. So are the buttons
-    of the author's own presets. JupyterLab gets them, too, rather than the sliders of ipywidgets:
-    those round what Python has set and write it back, and an arrow key moves them by a tenth.
+    of the author's own presets. JupyterLab gets them, too, but for the ranges of speed and step:
+    its style hides them, for `sliders.row` stands above the explorer, and keeps their numbers.
     """
     rows = []
     for control in offered(explorer):

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from ipywidgets import SelectionSlider
 from matplotlib.path import Path as Polygon
 from node import run_in_node
 
@@ -19,7 +20,8 @@ from suspension.contact import margin
 from suspension.explorer import DTS, SCHEMES, explore, page_script, page_style, tables
 from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import native
-from suspension.explorer.family import Family, affine
+from suspension.explorer.family import Family, Range, affine
+from suspension.explorer.sliders import stops
 from suspension.explorer.still import draw, picture
 from suspension.report.words import quantity
 from suspension.road import FlatRoad, GaussianBump
@@ -198,10 +200,83 @@ def test_what_python_has_set_stays_as_it_is():
     given = {"v": 0.8123456789, "dt": 0.00212345, "k": 703.123456, "c": 2.0123456}
     box = explore(LOPSIDED, BUMP, **given, scheme="Crank-Nicolson", view="robot")
     explorer = box.explorer
-    assert box.children == (explorer,) and explorer.view == "robot"
+    assert explorer.view == "robot"
     assert {name: getattr(explorer, name) for name in given} == given
     assert (explorer.height, explorer.sigma) == (BUMP.height, BUMP.sigma)
     assert explorer.scheme.name == "Crank-Nicolson"
+
+
+def test_speed_and_step_have_sliders_of_ipywidgets():
+    box = explore(ROBOT, BUMP, asked=(0.77,))
+    assert all(type(made) is SelectionSlider for made in box.sliders.values())
+    above, below = box.children
+    assert below is box.explorer and above.children == tuple(box.sliders.values())
+    assert [made.description for made in above.children] == ["Speed v (m/s)", "Step Δt (ms)"]
+    for name, made in box.sliders.items():
+        reach, values = box.explorer.ranges[name], [value for _, value in made.options]
+        assert (values[0], values[-1]) == (reach.low, reach.high) and values == sorted(values)
+        ways = np.diff(np.log(values)) / np.log(reach.high / reach.low)
+        assert 0 < ways.min() and ways.max() < 0.02  # an arrow key
+    assert 0.77 in dict(box.sliders["v"].options).values()
+    assert set(DTS) <= set(dict(box.sliders["dt"].options).values())
+    compact = explore(ROBOT, BUMP, compact=True)
+    assert list(compact.sliders) == ["v"]
+    assert compact.children == (compact.children[0], compact.explorer)
+
+
+@pytest.mark.parametrize("ends", [(1.0, 1.1), (1.0, 1.0001), (0.1, 25), (3.14159, 2718.28)])
+def test_a_slider_has_all_its_stops_in_any_range(ends):
+    values = stops(Range(*ends, True), 120)
+    assert len(values) == 120 and (values[0], values[-1]) == ends
+    ways = np.diff(np.log(values)) / np.log(ends[1] / ends[0])
+    assert 0 < ways.min() and ways.max() < 0.02
+
+
+def test_sliders_follow_and_lead_and_write_nothing_back():
+    """Whoever sets it, by whatever way: both have exactly what was set last."""
+    rng = np.random.default_rng(5)
+    box = explore(ROBOT, BUMP, v=1.23456789, dt=0.00123456789)
+    explorer = box.explorer
+    set_by_now = []
+    explorer.observe(lambda change: set_by_now.append((change["name"], change["new"])), "v")
+    explorer.observe(lambda change: set_by_now.append((change["name"], change["new"])), "dt")
+    expected = []
+    for _ in range(300):
+        name = ("v", "dt")[rng.integers(2)]
+        made, reach = box.sliders[name], explorer.ranges[name]
+        before = getattr(explorer, name)
+        way = rng.integers(5)
+        exact = float(reach.low * (reach.high / reach.low) ** rng.uniform())
+        if way == 0:
+            value = exact
+            setattr(explorer, name, value)
+        elif way == 1:  # as the browser sends a number that was typed
+            value = exact
+            explorer.set_state({name: value})
+        elif way == 2:  # as the browser sends a slider that was moved
+            index = int(rng.integers(len(made.options)))
+            value = made.options[index][1]
+            made.set_state({"index": index})
+        elif way == 3:
+            value = made.options[rng.integers(len(made.options))][1]
+            made.value = value
+        else:
+            value = (reach.low, reach.high)[rng.integers(2)]
+            setattr(explorer, name, value)
+        if value != before:
+            expected.append((name, value))
+        assert getattr(explorer, name) == made.value == value
+        scale = {"v": 1, "dt": 1000}[name]
+        assert float(made.label) == pytest.approx(value * scale, rel=1e-11)
+    assert set_by_now == expected
+
+
+def test_a_refused_speed_moves_no_slider():
+    box = explore(ROBOT, BUMP, v=1.23456789)
+    for bad in (np.nan, 1e9):
+        with pytest.raises(ValueError, match="^v must be"):
+            box.explorer.v = bad
+        assert box.explorer.v == box.sliders["v"].value == 1.23456789
 
 
 @pytest.mark.parametrize("name", ["v", "dt", "k", "c", "height", "sigma", "time"])
