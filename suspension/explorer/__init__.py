@@ -18,6 +18,7 @@ from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
+from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range
 from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
@@ -33,8 +34,14 @@ from suspension.simulation import simulate
 __all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore", "page_script", "page_style"]
 
 PAGE = Path(__file__).parent / "page"
-PANELS = ("robot", "speeds", "forces", "stability")
 NUMBERS = tuple(control.trait for control in CONTROLS)
+# What an explorer shows and has sliders for: a whole one, a compact one, and the chart.
+PANELS = {
+    False: ("robot", "speeds", "forces", "stability"),
+    True: ("robot", "speeds"),
+    "chart": ("chart",),
+}
+SLIDERS = {False: NUMBERS, True: ("v",), "chart": ("c", "height")}
 TRAITS = (*NUMBERS, "scheme_index", "time", "motion")
 WIDTHS = 4.0  # of a bump to either side of its middle: further away there is nothing of it
 CELLS = (512, 8192)  # steps of the curve over all speeds, at least and at most
@@ -98,7 +105,7 @@ class Explorer(anywidget.AnyWidget):
     ):
         self.family, self.schemes, self.distance = family, tuple(schemes), distance
         self.asked, self.compact, self.wide = tuple(asked), compact, wide
-        self.sliders = ("v",) if compact else NUMBERS
+        self.sliders = SLIDERS[compact]
         self.ranges = {"v": Range(*speeds, True)} | family.ranges
         robot = family.robot
         # A run may end one step past `distance`, and the front wheel is further ahead.
@@ -128,9 +135,10 @@ class Explorer(anywidget.AnyWidget):
                 "schemes": [scheme_facts(scheme) for scheme in self.schemes],
                 "reference": scheme_facts(REFERENCE),
                 "curveScheme": scheme_facts(CURVE),
-                "panels": ["robot", "speeds"] if compact else list(PANELS),
+                "panels": PANELS[compact],
                 "sliders": list(self.sliders),
-                "compact": compact,
+                "compact": bool(compact),
+                "chart": chart_facts(family, speeds, distance) if compact == "chart" else None,
                 "wide": wide,
                 "presets": presets,
                 "python": _python(family, self.schemes, distance),
@@ -160,7 +168,7 @@ class Explorer(anywidget.AnyWidget):
         It computes them at any settings to five digits; these are the ones that a text beside it
         names, and they take a moment, so they wait until the explorer is shown.
         """
-        if knows_all_speeds(self):
+        if knows_all_speeds(self) or self.compact == "chart":
             at = {name: getattr(self, name) for name in ("k", "c", "height", "sigma")}
             if self.facts.get("exact", {}).get("at") != at:
                 exact = {"at": at, "critical": critical(self).tolist()}
@@ -258,6 +266,7 @@ class ExplorerBox(ipywidgets.VBox):
         }
         text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
         kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
+        kind += " se-chart-only" if explorer.compact == "chart" else ""
         return (
             f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
             f'<div class="se-controls"{hidden}>{explorer.controls}</div>'
@@ -342,8 +351,9 @@ def explore(
     presets : sequence of (label, settings)
         More buttons that set the picture: settings is a dict of v, dt, k, c, height, sigma, scheme,
         time and motion, or of some of them; the others are those to start with.
-    compact : bool
-        Only the robot, the curve over all speeds, and the slider for the speed.
+    compact : bool or "chart"
+        Only the robot, the curve over all speeds, and the slider for the speed; or only the chart
+        of the highest bumps, and the sliders for damping and height.
     wide : bool
         In a built page, use the window's whole width.
 
@@ -362,6 +372,8 @@ def explore(
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
     family = Family(robot, road)
+    if _checks.one_of("compact", compact, tuple(PANELS)) == "chart":
+        check(family)
     schemes = [_checks.instance("schemes", known, Scheme) for known in schemes]
     if isinstance(scheme, Scheme) and scheme not in schemes:
         schemes.append(scheme)
@@ -397,7 +409,7 @@ def explore(
         motion=_checks.one_of("motion", motion, MOTIONS),
         view=_checks.one_of("view", view, VIEWS),
         presets=[_preset(preset, names, ranges) for preset in presets],
-        compact=bool(compact),
+        compact=compact,
         wide=bool(wide),
         **settings,
     )

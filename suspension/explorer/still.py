@@ -9,6 +9,7 @@ import numpy as np
 
 from suspension.contact import margin, regimes_between
 from suspension.critical import zeros
+from suspension.explorer.chart import describe_chart, draw_chart
 from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
 from suspension.forces import WHEEL
 from suspension.least_force import minima
@@ -33,6 +34,8 @@ RUN_NOTEBOOK = (
 
 def draw(explorer):
     """The panels as SVG, once the explorer knows its critical speeds."""
+    if explorer.compact == "chart":
+        return _svg(draw_chart(explorer))
     run = explorer.trajectory()
     return _svg(_compact(explorer, run) if explorer.compact else _panels(explorer, run))
 
@@ -40,7 +43,8 @@ def draw(explorer):
 def still(explorer, drawn):
     """What was drawn as an HTML image, with a text for those who cannot see it."""
     source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
-    text = _describe(explorer, explorer.trajectory())
+    is_chart = explorer.compact == "chart"
+    text = describe_chart(explorer) if is_chart else _describe(explorer, explorer.trajectory())
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 

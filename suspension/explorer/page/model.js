@@ -391,6 +391,19 @@ export function makeCurve(data, robot, road, settings) {
   return { speeds, least, critical, kept: margin(low) > 0, leastAt, settings };
 }
 
+/**
+ * The highest bump that is crossed with contact at each of the curve's speeds, m: forces are linear
+ * in the height, so each wheel's is the height times its load over what the bump takes from it.
+ */
+export function makeHighest(data, robot, curve, settings) {
+  const height = settings.height || data.own.height; // a level road takes nothing from a wheel
+  const { least } = settings.height
+    ? curve
+    : makeCurve(data, robot, makeRoad(data.shape, { ...settings, height }), { ...settings, height });
+  const over = (load, force) => (force < load ? (height * load) / (load - force) : Infinity);
+  return curve.speeds.map((_v, n) => Math.min(...[0, 1].map((i) => over(robot.weight[i], least[i][n]))));
+}
+
 /** The least of samples first .. last, and of the curve through five of them around it. */
 function lowest(N, first, last) {
   let at = first;

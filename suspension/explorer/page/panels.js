@@ -1,39 +1,16 @@
-// The four panels. Each has a `still` part, drawn when what was computed changes, and a `live` part,
+// The panels. Each has a `still` part, drawn when what was computed changes, and a `live` part,
 // drawn over it at every moment; `grab` says what a pointer at x, y takes hold of. The still part is
 // drawn again only when the panel's `key` is another one.
 
+import { chartPanel } from "./chart.js";
 import { drawMap } from "./map.js";
-import { clamp, powers, show, ticks } from "./pen.js";
+import { clamp, powers, show, ticks, trace } from "./pen.js";
 import { WHEEL } from "./words.js";
 
 const NAMES = ["N₁", "N₂"];
 const FAR = 5000; // pixels
 const DASH = [[], [7, 4]]; // rear solid, front dashed
 const REACH = 24; // pixels around a thing that one can take hold of
-
-/** A curve through samples; where they are dense, the first of each few and those that stand out. */
-function trace(values, x, y, width) {
-  const path = new Path2D(),
-    every = Math.max(1, Math.floor((2 * values.length) / width));
-  for (let n = 0; n < values.length; n += every) {
-    const end = Math.min(n + every, values.length) - 1,
-      points = [n];
-    let low = n,
-      high = n;
-    for (let m = n + 1; m <= end; m++) {
-      if (values[m] < values[low]) low = m;
-      if (values[m] > values[high]) high = m;
-    }
-    for (const m of low < high ? [low, high] : [high, low]) if (n < m && m < end) points.push(m);
-    if (end === values.length - 1 && end > n) points.push(end);
-    for (const m of points) {
-      const height = clamp(y(values[m]), -FAR, FAR);
-      if (!Number.isNaN(height)) path.lineTo(x(m), height);
-      if (!(Math.abs(height) < FAR)) return path; // an unstable run has left for good
-    }
-  }
-  return path;
-}
 
 /** The robot on the road, one scale for both directions; the picture moves along with it. */
 export const robotPanel = {
@@ -574,4 +551,5 @@ export const PANELS = {
   speeds: speedsPanel,
   forces: forcesPanel,
   stability: stabilityPanel,
+  chart: chartPanel,
 };

@@ -1,5 +1,7 @@
 // What every panel needs: numbers as text, round numbers for an axis, a pen for a canvas.
 
+const FAR = 5000; // pixels
+
 export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /** A number in few digits, with a true minus sign and powers of ten. */
@@ -38,6 +40,30 @@ export function powers(low, high) {
     }
   }
   return found;
+}
+
+/** A curve through samples; where they are dense, the first of each few and those that stand out. */
+export function trace(values, x, y, width) {
+  const path = new Path2D(),
+    every = Math.max(1, Math.floor((2 * values.length) / width));
+  for (let n = 0; n < values.length; n += every) {
+    const end = Math.min(n + every, values.length) - 1,
+      points = [n];
+    let low = n,
+      high = n;
+    for (let m = n + 1; m <= end; m++) {
+      if (values[m] < values[low]) low = m;
+      if (values[m] > values[high]) high = m;
+    }
+    for (const m of low < high ? [low, high] : [high, low]) if (n < m && m < end) points.push(m);
+    if (end === values.length - 1 && end > n) points.push(end);
+    for (const m of points) {
+      const height = clamp(y(values[m]), -FAR, FAR);
+      if (!Number.isNaN(height)) path.lineTo(x(m), height);
+      if (!(Math.abs(height) < FAR)) return path; // an unstable run has left for good
+    }
+  }
+  return path;
 }
 
 /** A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. */

@@ -9,6 +9,7 @@ import {
   judgeExactly,
   lookUp,
   makeCurve,
+  makeHighest,
   makeMemory,
   makeRoad,
   makeRobot,
@@ -43,6 +44,7 @@ export function makeScenes(data) {
     const here = [k, c, height, sigma],
       there = [...here, v];
     const curve = once("curve", here, () => makeCurve(data, robot, road, settings));
+    const highestBumps = data.chart && once("chart", here, () => makeHighest(data, robot, curve, settings));
     const truth = once("truth", [...there, dt], () => {
       const found = reference(data, robot, road, settings, spaces.truth);
       return { ...found, verdict: judgeExactly(found), beyond: beyond(data, robot, road, found) };
@@ -58,7 +60,24 @@ export function makeScenes(data) {
     });
     const growths = robot.modes.map(([re, im]) => growth(scheme, [re * dt, im * dt]));
     const stable = run !== null && growths.every((size) => size <= STABLE);
-    return { data, settings, v, dt, end, J, scheme, robot, road, curve, flight, truth, run, growths, stable };
+    return {
+      data,
+      settings,
+      v,
+      dt,
+      end,
+      J,
+      scheme,
+      robot,
+      road,
+      curve,
+      highestBumps,
+      flight,
+      truth,
+      run,
+      growths,
+      stable,
+    };
   };
 }
 

@@ -6,8 +6,9 @@ import { render } from "./view.js";
 
 export default {
   render({ model, el }) {
-    const { compact } = model.get("facts");
-    const box = make(el, "div", `suspension-explorer-box se-page${compact ? " se-compact" : ""}`);
+    const { compact, chart } = model.get("facts"),
+      kind = (compact ? " se-compact" : "") + (chart ? " se-chart-only" : "");
+    const box = make(el, "div", `suspension-explorer-box se-page${kind}`);
     const layout = make(box, "div", "se-layout");
     make(layout, "div", "se-controls").innerHTML = model.get("controls");
     const view = render(model, make(layout, "div", "se-place"));

@@ -14,6 +14,7 @@ const capital = (text) => text[0].toUpperCase() + text.slice(1);
  * verdict); `headline` comes before anything else, `details` after it.
  */
 export function describe(scene, motion) {
+  if (scene.data.chart) return describeChart(scene);
   return motion === "flying" ? describeFlight(scene) : describeRun(scene);
 }
 
@@ -120,6 +121,45 @@ function describeFlight(scene) {
     tone: "lost",
     headline: `Off the ground ${how}, first the ${wheel(scene, first)}.`,
     details: details.concat(remarks(scene, flight)),
+  };
+}
+
+/** Numbers in three digits, or in as many as tell each from the next. */
+export function distinct(values) {
+  for (let digits = 3; ; digits++) {
+    const names = values.map((value) => show(value, digits));
+    if (digits > 9 || new Set(names).size === names.length) return names;
+  }
+}
+
+/** Where a bump of this height is crossed with contact, and whether faster is safer somewhere. */
+export function describeChart({ data, curve: { critical, kept }, settings: { height } }) {
+  const bump = height > 0 ? `a bump of ${unit(1000 * height, "mm")}` : "a level road",
+    names = distinct(critical),
+    [low, high] = data.ranges.v;
+  if (!critical.length) {
+    const everywhere = `at every speed from ${show(low)} to ${unit(high, "m/s")}`;
+    return {
+      tone: kept ? "kept" : "lost",
+      headline: `Over ${bump} contact is ${kept ? "kept" : "lost"} ${everywhere}.`,
+      details: [],
+    };
+  }
+  const verdicts = Array.from({ length: critical.length + 1 }, (_, i) => kept === (i % 2 === 0));
+  const parts = verdicts.map((good, i) => {
+    const where =
+      i === 0
+        ? `up to ${names[0]}\u00a0m/s`
+        : i === critical.length
+          ? "from there on"
+          : `from ${names[i - 1]} to ${names[i]}\u00a0m/s`;
+    return `${good ? "kept" : "lost"} ${where}`;
+  });
+  const open = verdicts.some((good, i) => good && i > 0);
+  return {
+    tone: open ? "kept" : "lost",
+    headline: `${open ? "The window is open: faster can be safer." : "The window is closed: faster is never safer."} Over ${bump} contact is ${parts.slice(0, -1).join(", ")} and ${parts.at(-1)}.`,
+    details: [],
   };
 }
 
