@@ -91,13 +91,14 @@ def slider(explorer, control, known=()):
         if not following:
             setattr(explorer, name, change["new"])
 
-    value = getattr(explorer, name)
+    value, label = getattr(explorer, name), f"{control.label} ({control.unit})"
     made = SelectionSlider(
         options=options(with_exact(value)),
         value=value,
-        description=f"{control.label} ({control.unit})",
+        description=label,
+        tooltip=label,
         style={"description_width": "initial"},
-        layout=Layout(width="50%", min_width="0"),
+        layout=Layout(flex="1 1 20rem", width="auto", min_width="0"),  # or there is no track left
     )
     explorer.observe(follow, name)
     made.observe(lead, "value")
@@ -105,11 +106,12 @@ def slider(explorer, control, known=()):
 
 
 def row(explorer):
-    """The sliders side by side, and by name: a compact explorer's is the speed's alone.
+    """An explorer's sliders, side by side where there is room; a compact one's is for v alone.
 
     Returns
     -------
-    HBox, dict of str to SelectionSlider
+    HBox
+    dict of str to SelectionSlider
     """
     known = {"v": explorer.asked, "dt": DTS}
     sliders = {
@@ -117,4 +119,4 @@ def row(explorer):
         for control in CONTROLS
         if control.trait in STEPS and control.trait in explorer.sliders
     }
-    return HBox(list(sliders.values()), layout=Layout(width="100%")), sliders
+    return HBox(list(sliders.values()), layout=Layout(flex_flow="row wrap")), sliders

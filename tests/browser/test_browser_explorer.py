@@ -987,8 +987,8 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     for name in SLIDERS:
         before = look(tab)
         for _ in range(3):
-            slider(tab, name).press("ArrowLeft")
-        tab.wait_for_timeout(150)
+            track_of(tab, name)[0].press("ArrowLeft")
+        tab.wait_for_timeout(600 if name in IPYWIDGETS else 150)  # by way of the kernel
         assert words(tab) != before[0], name
         assert pictures(tab) != before[1], name
     tab.get_by_role("button", name="Crank-Nicolson").click()
@@ -1011,17 +1011,59 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
 
 WIDE = {"width": 1366, "height": 768}
 ALL_SLIDERS = [*SLIDERS, *BUMP_SLIDERS]
+IPYWIDGETS = SLIDERS[:2]  # those of speed and step, in JupyterLab
 LIVE = f"{BOX}.se-live"
+FRAME = f".suspension-explorer-frame:has({LIVE})"
 
 
 def reach_explorer(tab, nth=0):
     """Bring an explorer's upper edge to that of its notebook."""
-    tab.locator(LIVE).nth(nth).evaluate("box => box.scrollIntoView({ block: 'start' })")
+    tab.locator(FRAME).nth(nth).evaluate("box => box.scrollIntoView({ block: 'start' })")
     tab.wait_for_timeout(700)
+
+
+def track_of(tab, name, nth=0):
+    """What takes a slider's keys, and what a mouse sees of it, in JupyterLab."""
+    if name not in IPYWIDGETS:
+        return (slider(tab, name, nth),) * 2
+    widget = tab.locator(FRAME).nth(nth).locator(".jupyter-widgets .widget-slider")
+    widget = widget.nth(IPYWIDGETS.index(name))
+    assert widget.locator(".widget-label").inner_text() == name
+    return widget.locator(".noUi-handle"), widget.locator(".noUi-target")
+
+
+def answered(tab):
+    """Wait until the kernel has answered what a slider of ipywidgets asked."""
+    tab.wait_for_timeout(600)
+    settle(tab)
+
+
+def pull_widget(tab, name, nth=0, way=40):
+    """The same as `pull` for a slider of ipywidgets, by its handle: numbers the explorer has."""
+    handle, track = track_of(tab, name, nth)
+    trait = ("v", "dt")[IPYWIDGETS.index(name)]
+    box, edge = handle.bounding_box(), track.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    way = way if x < edge["x"] + 0.6 * edge["width"] else -way
+
+    def value():
+        answered(tab)
+        return shown(tab, nth)[0][trait]
+
+    seen = [value()]
+    tab.mouse.move(x, y)
+    tab.mouse.down()
+    tab.mouse.move(x + way, y + 2, steps=5)
+    seen.append(value())
+    tab.mouse.move(x, y, steps=5)
+    tab.mouse.up()
+    return [*seen, value()]
 
 
 def pull(tab, name, nth=0, way=40):
     """Drag a slider's handle and back: the value before, on the way, and after."""
+    if name in IPYWIDGETS:
+        return pull_widget(tab, name, nth, way)
     track = slider(tab, name, nth)
     track.scroll_into_view_if_needed()
     box, place = track.bounding_box(), float(track.input_value())
@@ -1054,7 +1096,8 @@ def test_by_mouse_in_jupyterlab(browser, lab, name):
         reach_explorer(tab)
         for control in tab.locator(LIVE).first.locator(".se-control").all():
             label = control.locator(".se-name")
-            assert control.locator("input[type=range]").bounding_box()["width"] >= 120
+            if control.get_attribute("data-trait") not in ("v", "dt"):
+                assert control.locator("input[type=range]").bounding_box()["width"] >= 120
             parts = [control.locator(part).bounding_box() for part in (".se-name", ".se-number")]
             edge = control.bounding_box()
             assert label.bounding_box()["height"] < 30  # one line
@@ -1063,9 +1106,12 @@ def test_by_mouse_in_jupyterlab(browser, lab, name):
             assert label.evaluate("e => e.scrollWidth <= e.clientWidth + 1 || !e.clientWidth")
             assert parts[0]["x"] + parts[0]["width"] <= parts[1]["x"] + 1  # nothing is covered
             assert parts[1]["x"] + parts[1]["width"] <= edge["x"] + edge["width"] + 1
+        for control in IPYWIDGETS:
+            assert track_of(tab, control)[1].bounding_box()["width"] >= 120, (control, width)
+            assert not tab.locator(LIVE).first.get_by_role("slider", name=control).count()
         sight = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer").bounding_box()
         low = sight["y"] + sight["height"]
-        for part in (slider(tab, SLIDERS[0]), tab.locator(f"{LIVE} .se-robot").first):
+        for part in (track_of(tab, SLIDERS[0])[1], tab.locator(f"{LIVE} .se-robot").first):
             box = part.bounding_box()
             assert sight["y"] - 1 <= box["y"] and box["y"] + box["height"] <= low + 1, width
         if (width, height) == (1366, 768):  # every slider, and every picture
@@ -1079,8 +1125,9 @@ def test_by_mouse_in_jupyterlab(browser, lab, name):
         start, moved, after = pull(tab, control)
         assert start == after != moved, control
         assert look(tab) == before
-        box = slider(tab, control).bounding_box()
+        box = track_of(tab, control)[1].bounding_box()
         tab.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2)
+        answered(tab)
         changed = look(tab)
         assert changed[0] != before[0] and changed[1] != before[1], control
         assert not re.search("NaN|undefined|Infinity", changed[0])
@@ -1094,7 +1141,21 @@ def test_keys_and_typed_numbers_in_jupyterlab(browser, lab):
     tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
     kernel = np.load(folder / "run.npz")
     assert (kernel["v"], kernel["dt"]) == (0.8, 0.001)  # as Python set them, nothing written back
-    for name in SLIDERS:
+    type_in(tab, SLIDERS[0], "0.812345678")  # a number that no slider offers
+    answered(tab)
+    for name, trait in zip(IPYWIDGETS, ("v", "dt"), strict=True):
+        handle, _ = track_of(tab, name)
+        low, high = {"v": (0.1, 25), "dt": (0.00025, 0.2)}[trait]
+        values = []
+        for key in (None, "ArrowRight", "ArrowLeft", "PageUp"):
+            if key:
+                handle.press(key)
+            answered(tab)
+            values.append(shown(tab)[0][trait])
+        ways = np.diff(np.log(values)) / np.log(high / low)
+        assert 0 < ways[0] <= 0.02 < ways[2] < 0.2, name
+        assert values[2] == values[0], name
+    for name in SLIDERS[2:]:
         track = slider(tab, name)
         places = [float(track.input_value())]
         for key in ("ArrowRight", "ArrowLeft", "PageUp"):
@@ -1107,11 +1168,19 @@ def test_keys_and_typed_numbers_in_jupyterlab(browser, lab):
         type_in(tab, SLIDERS[0], "3")
         type_in(tab, SLIDERS[0], text)
         assert shown(tab)[0]["v"] == 1.2
+    type_in(tab, SLIDERS[0], "0.812345678")
+    answered(tab)
+    readout = tab.locator(FRAME).locator(".widget-readout").first
+    assert readout.inner_text() == "0.812345678"
+    assert readout.evaluate("e => e.scrollWidth <= e.clientWidth")
+    assert shown(tab)[0]["v"] == 0.812345678  # and the kernel has the same
+    tab.locator(".jp-CodeCell .cm-content").last.click()
+    tab.keyboard.press("Control+Enter")
+    tab.get_by_text("saved 0.812345678").wait_for(timeout=60_000)
     for nothing in ("NaN", "Infinity", "undefined"):
-        slider(tab, SLIDERS[0]).evaluate(
-            f"e => {{ e.value = {nothing}; e.dispatchEvent(new Event('input')); }}"
-        )
-        assert 0.1 <= shown(tab)[0]["v"] <= 25
+        stiffness = tab.locator(f"{LIVE} [data-trait=k] input[type=range]")
+        stiffness.evaluate(f"e => {{ e.value = {nothing}; e.dispatchEvent(new Event('input')); }}")
+        assert 200 <= shown(tab)[0]["k"] <= 2500
     tab.close()
 
 
