@@ -58,6 +58,11 @@ EDGE = "no number meets the bound exactly"
 # Module, a part of the line, what stood there ("" for anything), and why no test can see a change.
 EQUIVALENT = [
     ("robot", "round(9)", "9", "modes as slow as each other agree in more digits than they have"),
+    ("road", "eq=False", "False", "equality is written out"),
+    ("road", "around = [", "", "a level piece of any length has the same slope, none"),
+    ("road", "MAX_WAVES = ", "", GUARD),
+    ("road", "STEEPEST = ", "", GUARD),
+    ("road", "LONGEST = ", "", GUARD),
     ("schemes", "MAX_POINTS =", "", GUARD),
     ("schemes", "FINE =", "", DENSITY),
     ("schemes", "pieces = 1 +", "1", DENSITY),
