@@ -19,7 +19,9 @@ PAGE = Path(suspension.explorer.__file__).with_name("page")
 # Reads given.json: an explorer's facts and tables and many settings, and what is asked of each.
 ASK = """
 import { readFileSync } from "node:fs";
+import { limitAt } from "./page/chart.js";
 import * as model from "./page/model.js";
+import { describeChart } from "./page/words.js";
 
 const { facts, tables, settings } = JSON.parse(readFileSync("given.json"));
 const { buffer, byteOffset, length } = Buffer.from(tables.road, "base64");
@@ -41,6 +43,12 @@ for (const { asked, ...s } of settings) {
   } else if (asked === "curve") {
     const { speeds, least, critical } = model.makeCurve(data, robot, road, s);
     Object.assign(answer, { speeds: [...speeds], least: least.map((N) => [...N]), critical });
+  } else if (asked === "chart") {
+    const curve = model.makeCurve(data, robot, road, s), { speeds } = curve;
+    answer.highest = [...model.makeHighest(data, robot, curve, s)];
+    answer.limits = data.chart.limits.map((limit) => [...speeds.map((v) => limitAt(limit, s, v))]);
+    answer.words = describeChart({ data, curve, settings: s });
+    Object.assign(answer, { speeds: [...speeds], critical: curve.critical });
   } else if (asked === "flight") {
     const { events, gaps, J, dt, airtime } = model.fly(data, robot, road, s, memory);
     const highest = gaps.map((gap) => gap.slice(0, J + 1).reduce((a, b) => Math.max(a, b)));

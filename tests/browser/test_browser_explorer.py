@@ -33,6 +33,7 @@ BOX = ".suspension-explorer-box"
 VIEW = f"{BOX} .suspension-explorer"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Damping c (N s/m)"]
 BUMP_SLIDERS = ["Bump height (mm)", "Bump width σ (mm)"]
+CHART_SLIDERS = [SLIDERS[3], BUMP_SLIDERS[0]]
 PLAIN = {0x2212: "-", 0xD7: "x", 0xA0: " "}  # the page's minus, times and fixed space
 MARK = '<div class="suspension-explorer-box'  # stands in every page with an explorer
 BUMPS = """
@@ -49,6 +50,7 @@ PAGES = {
     "bumps": (eval(LOPSIDED), two_bumps),  # noqa: F821
     "undamped": (Robot(793.2, 793.2, c1=0, c2=0), GaussianBump()),
 }
+CHART = "chart"  # one more page, of the first robot and bump
 
 
 @pytest.fixture(scope="module")
@@ -57,9 +59,13 @@ def pages(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
     (folder / "explorer.js").write_text(page_script(), encoding="utf-8")
     (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
-    for name, (robot, road) in PAGES.items():
-        presets = [("Long steps", {"v": 5, "dt": 0.05, "scheme": "Crank-Nicolson"})]
-        box = explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets, **KNOWN)
+    presets = [("Long steps", {"v": 5, "dt": 0.05, "scheme": "Crank-Nicolson"})]
+    boxes = {
+        name: explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets, **KNOWN)
+        for name, (robot, road) in PAGES.items()
+    }
+    boxes[CHART] = explore(*PAGES["bump"], compact="chart", **KNOWN)
+    for name, box in boxes.items():
         (folder / f"{name}.html").write_text(
             '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
@@ -842,6 +848,54 @@ def test_axe_finds_nothing_in_any_state(visit, served, width):
         assert not found + dark, (state, "\n".join(found + dark))
 
 
+@pytest.mark.parametrize("width", [390, 1280])
+def test_axe_finds_nothing_on_the_chart(visit, served, width):
+    tab = visit(f"{served}{CHART}.html", viewport={"width": width, "height": 900})
+    tab.add_script_tag(path=AXE)
+    settle(tab)
+    found, passed = violations(tab)
+    assert passed > 10 and not found, "\n".join(found)
+
+
+def test_the_damping_and_the_height_open_and_close_the_chart_s_window(visit, served):
+    tab = visit(f"{served}{CHART}.html")
+    canvas = tab.locator("canvas.se-chart")
+    opened = look(tab)
+    assert "The window is open" in opened[0] and tone(tab) == "kept"
+    assert canvas.get_attribute("aria-label").translate(PLAIN).endswith(headline(tab)[-60:])
+    slider(tab, CHART_SLIDERS[0]).press("End")
+    closed = look(tab)
+    assert "The window is closed" in closed[0] and tone(tab) == "lost"
+    assert closed[1]["se-chart"] != opened[1]["se-chart"]
+    slider(tab, CHART_SLIDERS[1]).press("Home")
+    assert "a level road" in words(tab) and tone(tab) == "kept"
+    type_in(tab, CHART_SLIDERS[0], "1.5")
+    type_in(tab, CHART_SLIDERS[1], "25.4")
+    assert look(tab) == opened
+
+
+def test_the_charts_bump_can_be_taken_hold_of(visit, served):
+    tab = visit(f"{served}{CHART}.html")
+    state = json.loads(tab.locator(".se-state").text_content())
+    low, high = state["facts"]["chart"]["heights"]
+    box = tab.locator("canvas.se-chart").bounding_box()
+    top, bottom = box["y"] + 24, box["y"] + box["height"] - 33  # as chart.js has it
+
+    def drag(height, to):
+        x, places = box["x"] + box["width"] / 2, []
+        for h in (height, to):
+            places.append(bottom - (bottom - top) * np.log(h / low) / np.log(high / low))
+        tab.mouse.move(x, places[0])
+        tab.mouse.down()
+        tab.mouse.move(x, places[1], steps=3)
+        tab.mouse.up()
+        return shown(tab)[0]["height"]
+
+    assert drag(0.1, 0.05) == 0.0254  # nothing is there
+    assert drag(0.0254, 0.005) == pytest.approx(0.005, rel=0.03)
+    assert "from there on" in words(tab) or "at every speed" in words(tab)
+
+
 def violations(tab, *rules):
     """What axe objects to, by some of its rules or by all; and how many rules found nothing."""
     options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
@@ -912,7 +966,8 @@ def test_every_explorer_of_the_book(visit, site, book):
         tab = visit(site + page.relative_to(book).as_posix())
         for nth in range(tab.locator(BOX).count()):
             compact = "se-compact" in tab.locator(BOX).nth(nth).get_attribute("class")
-            names = SLIDERS[:1] if compact else [*SLIDERS, "Moment"]
+            chart = tab.locator(BOX).nth(nth).locator("canvas.se-chart").count()
+            names = CHART_SLIDERS if chart else SLIDERS[:1] if compact else [*SLIDERS, "Moment"]
             for name in names:
                 before = look(tab, nth)
                 slider(tab, name, nth).press("PageDown")

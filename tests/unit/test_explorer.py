@@ -16,17 +16,18 @@ from matplotlib.path import Path as Polygon
 from node import run_in_node
 
 from suspension import problem
-from suspension.contact import margin
+from suspension.contact import margin, regimes
 from suspension.explorer import DTS, SCHEMES, explore, page_script, page_style, tables
 from suspension.explorer.bundle import bundle
 from suspension.explorer.controls import native
 from suspension.explorer.family import Family, Range, affine
 from suspension.explorer.sliders import stops
 from suspension.explorer.still import draw, picture
-from suspension.report.words import quantity
+from suspension.report.words import quantity, ranges
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import EULER, Scheme
+from suspension.similarity import highest_bump
 from suspension.simulation import simulate
 
 BUMP = GaussianBump()
@@ -510,6 +511,45 @@ def test_a_compact_one_has_one_slider():
 
 
 @pytest.mark.slow
+def test_the_chart_has_two_sliders_and_a_still_picture_that_says_where_contact_is_kept():
+    html = explore(ROBOT, BUMP, compact="chart", asked=(0.25, 5)).html()
+    assert re.findall(r'data-trait="(\w+)"', html) == ["c", "height"]
+    facts = state_of(html)["facts"]
+    assert facts["panels"] == ["chart"] and facts["compact"] is True
+    low, high = facts["chart"]["heights"]
+    v = np.geomspace(0.1, 25, 50)
+    assert 2 * low < highest_bump(ROBOT, BUMP, v).min() < BUMP.height < high / 2
+    alt, source = re.search(r'<img class="[\w-]+" alt="([^"]+)" src="([^"]+)">', html).groups()
+    found = regimes(ROBOT, BUMP, 0.1, 25)
+    assert ranges(found) in alt and "25.4\xa0millimetres" in alt
+    assert "speed" in unquote(source) and unquote(source).rstrip().endswith("</svg>")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "settings",
+    [{"height": 0}, {"c": 0}, {"robot": Robot(700, 1000, L1=0.12, L2=0.09, c1=2, c2=0.5)}],
+)
+def test_the_chart_is_drawn_at_the_ends_of_its_sliders_and_for_other_robots(settings):
+    robot = settings.pop("robot", ROBOT)
+    html = explore(robot, BUMP, compact="chart", **settings).html()
+    assert "se-chart-only" in html and "contact is kept" in html
+
+
+@pytest.mark.parametrize(
+    "robot, road",
+    [
+        (Robot(793.2, 793.2, g=0), BUMP),
+        (ROBOT, lambda x: (0 * x, 0 * x)),
+        (ROBOT, GaussianBump(height=-0.01)),
+    ],
+)
+def test_no_chart_without_a_load_or_a_bump(robot, road):
+    with pytest.raises(ValueError, match="^compact must not be 'chart' unless road is a Gauss"):
+        explore(robot, road, compact="chart")
+
+
+@pytest.mark.slow
 def test_flying_it_starts_where_a_wheel_is_highest_and_so_is_drawn():
     box = explore(ROBOT, BUMP, v=5, motion="flying", compact=True)
     flight, linear = box.explorer.flight(), explore(ROBOT, BUMP, v=5, compact=True)
@@ -563,5 +603,5 @@ def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
 
 def test_what_a_page_has_to_load_is_small():
     scripts = page_script() + page_style()
-    assert len(gzip.compress(scripts.encode())) < 42_000
+    assert len(gzip.compress(scripts.encode())) < 44_000
     assert not re.search(r"^\s*(import|export)\b", page_script(), re.MULTILINE)

@@ -1,5 +1,6 @@
 """The page's own modules, run by Node: their numbers are Python's, and they know no physics."""
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,12 +8,13 @@ import pytest
 from helpers import PARITY, ROOT, largest_difference
 from node import ask_page, node, random_settings, run_in_node, run_own_tests, unpack
 
-from suspension.contact import critical_speeds, margin
+from suspension.contact import critical_speeds, margin, regimes
 from suspension.explorer import SCHEMES, Explorer, explore
 from suspension.flight import fly
 from suspension.road import GaussianBump, road_input
 from suspension.robot import Robot
 from suspension.schemes import Scheme
+from suspension.similarity import follow, groups, highest_bump, skim, throw
 from suspension.simulation import simulate, steps
 
 pytestmark = pytest.mark.slow  # Node runs, one for each setting
@@ -111,6 +113,80 @@ def test_the_curve_over_all_speeds_is_that_of_the_exact_margins(explorers, tmp_p
             assert found == pytest.approx(margin(robot, road, v), abs=0.05), (v, setting)
     critical = critical_speeds(ROBOT, BUMP, 0.1, 25)
     np.testing.assert_allclose(answers[0]["critical"], critical, rtol=1e-4)
+
+
+@pytest.fixture(scope="module")
+def charts():
+    return {
+        "symmetric": explore(ROBOT, BUMP, compact="chart").explorer,
+        "unsymmetric": explore(LOPSIDED, BUMP, compact="chart").explorer,
+    }
+
+
+def chart_settings(explorer, count):
+    """Settings all over the sliders, with bumps so narrow that no wheel starts on them."""
+    for setting in random_settings(explorer, np.random.default_rng(12), count):
+        yield setting | {"sigma": 0.01 + 0.2 * setting["sigma"]}
+
+
+@pytest.mark.parametrize("case", ["symmetric", "unsymmetric"])
+def test_the_charts_highest_bump_is_pythons(charts, case, tmp_path):
+    explorer = charts[case]
+    settings = list(chart_settings(explorer, 60))
+    settings[0]["height"] = 0.0  # a level road has its chart, too
+    settings[1]["c"] = 0.0
+    load = (ROBOT.C @ ROBOT.equilibrium).max()
+    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "chart", settings)):
+        robot, road = family_at(explorer, setting)
+        v = np.array(answer["speeds"])[::16]
+        exact = highest_bump(robot, road, v, distance=explorer.distance)
+        height = setting["height"] or explorer.family.own["height"]
+        # In forces: what the bump takes from a wheel.
+        found = load * height / np.array(answer["highest"], float)[::16]
+        np.testing.assert_allclose(found, load * height / exact, rtol=0.01, atol=0.05)
+
+
+def test_the_charts_limits_are_pythons(charts, tmp_path):
+    explorer = charts["symmetric"]
+    settings = list(chart_settings(explorer, 12))
+    names = [limit["name"] for limit in explorer.facts["chart"]["limits"]]
+    assert names == ["follow", "throw", "skim"]
+    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "chart", settings)):
+        robot, road = family_at(explorer, setting)
+        for n in (0, 50, 127):
+            G = groups(robot, road, answer["speeds"][n])
+            sag = road.height / G.eta
+            expected = [sag * follow(G.nu, G.j), sag * throw(G.nu), sag * skim(G.nu, G.zeta)]
+            np.testing.assert_allclose([line[n] for line in answer["limits"]], expected, rtol=1e-9)
+    assert charts["unsymmetric"].facts["chart"]["limits"] == []
+
+
+def test_the_charts_words_say_where_contact_is_kept_and_whether_the_window_is_open(
+    charts, tmp_path
+):
+    explorer = charts["symmetric"]
+    own = explorer.family.own | {"v": 1.2, "dt": 0.001, "scheme_index": 0}
+    cases = {
+        "open": own,
+        "closed": own | {"c": 6.0},
+        "every speed": own | {"height": 0.0},
+        "low": own | {"height": 0.001},
+    }
+    answers = ask_page(tmp_path, explorer, "chart", list(cases.values()))
+    for (case, setting), answer in zip(cases.items(), answers):
+        robot, road = family_at(explorer, setting)
+        text = answer["words"]["headline"].replace("\u00a0", " ")
+        assert ("window is open" in text) == (case == "open")
+        assert ("window is closed" in text) == (case == "closed")
+        assert answer["words"]["tone"] == ("lost" if case == "closed" else "kept")
+        if case in ("every speed", "low"):
+            assert text.endswith("contact is kept at every speed from 0.1 to 25 m/s.")
+            continue
+        found = regimes(robot, road, 0.1, 25)
+        verdicts = re.findall("kept|lost", text.split("contact is")[1])
+        assert [verdict == "lost" for verdict in verdicts] == found.lost.tolist()
+        said = {float(x) for x in re.findall(r"[\d.]+(?= to| m/s)", text.split("contact is")[1])}
+        np.testing.assert_allclose(sorted(said), found.critical, rtol=0.005)
 
 
 @pytest.mark.parametrize("case", CASES)
