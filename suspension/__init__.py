@@ -20,7 +20,7 @@ What goes beyond:
 - `sweep`, `extremes`: very many runs at once, on a ground that only pushes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
-- `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
+- `travel`, `accuracy`, `small_angle`, `branches`, `uncertainty`: how far the answers can be trusted
 - `measured`: which verdicts such a spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
