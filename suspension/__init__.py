@@ -21,7 +21,7 @@ What goes beyond:
 - `small_angle`: what a pitch that is not small changes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `choice`: what a suspension must do, and the least change that does it
-- `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
+- `travel`, `accuracy`, `small_angle`, `branches`, `uncertainty`: how far the answers can be trusted
 - `measured`: which verdicts such a spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
