@@ -174,7 +174,7 @@ def headline(tab):
 
 
 def tone(tab):
-    return tab.locator(".se-status").get_attribute("data-tone")
+    return tab.locator(".se-status").first.get_attribute("data-tone")
 
 
 def shown(tab, nth=0):
@@ -1073,8 +1073,9 @@ FRAME = f".suspension-explorer-frame:has({LIVE})"
 
 def reach_explorer(tab, nth=0):
     """Bring an explorer's upper edge to that of its notebook."""
-    tab.locator(FRAME).nth(nth).evaluate("box => box.scrollIntoView({ block: 'start' })")
-    tab.wait_for_timeout(700)
+    for _ in range(2):  # once more, for cells above it get their true heights when they are seen
+        tab.locator(FRAME).nth(nth).evaluate("box => box.scrollIntoView({ block: 'start' })")
+        tab.wait_for_timeout(700)
 
 
 def track_of(tab, name, nth=0):
