@@ -21,8 +21,8 @@ export const chartPanel = {
     const py = (height) => bottom - ((bottom - top) * Math.log(height / low)) / Math.log(high / low);
     const y = clamp(py(settings.height), top, bottom); // of the bump
     this.frame = { left, right, top, bottom, px, py, y, low, high };
-    text("Height of the bump (mm)", 0, 13, { colour: "ink", bold: true });
-    pen.legend(196, 13, right, [
+    text("Bump height (mm)", 0, 13, { colour: "ink", bold: true });
+    pen.legend(138, 13, right, [
       { words: "highest with contact", colour: "ink", width: 3, ink: "ink" },
       ...(data.chart.limits.length
         ? [{ words: "limits by hand", colour: "soft", width: 1.2, dash: [6, 4] }]
@@ -82,13 +82,13 @@ function drawLimit({ g, stroke, line, text }, limit, settings, frame, slow, fast
   const slope = (to[1] - from[1]) / (to[0] - from[0]),
     ends = [top + 16, bottom - 6].map((y) => clamp(from[0] + (y - from[1]) / slope, left, right));
   if (Math.abs(ends[1] - ends[0]) < 40) return;
-  const places = [0.3, 0.7].map((share) => {
+  const places = [0.3, 0.15, 0.6].map((share) => {
     const x = ends[0] + share * (ends[1] - ends[0]);
     return [x, from[1] + slope * (x - from[0])];
   });
-  const [a, b] = places.map(([, y]) => Math.abs(y - frame.y)); // not across the bump
+  const free = places.find(([, y]) => Math.abs(y - frame.y) > 20) ?? places[0]; // of the bump
   g.save();
-  g.translate(...places[a < 20 && b > a ? 1 : 0]);
+  g.translate(...free);
   g.rotate(Math.atan(slope));
   text(limit.name, 0, -5, { align: "center", halo: true });
   g.restore();
