@@ -112,16 +112,16 @@ function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data
       });
   });
   for (const v of data.asked) dot(px(v), y, 4.5, "paper", "ink", 1.5);
-  const below = y + 36 < bottom ? 1 : -1; // where there is room for the numbers
-  const names = distinct(critical);
-  let last = -Infinity;
+  const names = distinct(critical),
+    rows = y + 36 < bottom ? [20, 34] : [-22, -36], // where there is room for the numbers
+    last = [-Infinity, -Infinity];
   critical.forEach((v, i) => {
     dot(px(v), y, 4.5, "ink");
     const x = clamp(px(v), left + 14, right - 14),
-      crowded = x - last < 34;
-    const away = below > 0 ? (crowded ? 34 : 20) : crowded ? -36 : -22;
-    text(names[i], x, y + away, { align: "center", colour: "ink", bold: true, halo: true });
-    last = crowded ? last : x;
+      row = last.findIndex((before) => x - before > 36);
+    if (row < 0) return; // the words above the picture have them all
+    text(names[i], x, y + rows[row], { align: "center", colour: "ink", bold: true, halo: true });
+    last[row] = x;
   });
   text(show(MM * settings.height), left - 6, y + 4, {
     align: "right",

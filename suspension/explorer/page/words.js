@@ -132,7 +132,7 @@ export function distinct(values) {
   }
 }
 
-/** Where a bump of this height is crossed with contact, and whether faster is safer somewhere. */
+/** Where a bump of this height is crossed with contact, and whether more speed ever restores it. */
 export function describeChart({ data, curve: { critical, kept }, settings: { height } }) {
   const bump = height > 0 ? `a bump of ${unit(1000 * height, "mm")}` : "a level road",
     names = distinct(critical),
@@ -156,9 +156,13 @@ export function describeChart({ data, curve: { critical, kept }, settings: { hei
     return `${good ? "kept" : "lost"} ${where}`;
   });
   const open = verdicts.some((good, i) => good && i > 0);
+  // A range that is kept beyond one that is lost; the curve may rise without one.
+  const window = open
+    ? "The window is open: more speed restores contact."
+    : `The window is closed: more speed, up to ${unit(high, "m/s")}, does not restore contact.`;
   return {
     tone: open ? "kept" : "lost",
-    headline: `${open ? "The window is open: faster can be safer." : "The window is closed: faster is never safer."} Over ${bump} contact is ${parts.slice(0, -1).join(", ")} and ${parts.at(-1)}.`,
+    headline: `${window} Over ${bump} contact is ${parts.slice(0, -1).join(", ")} and ${parts.at(-1)}.`,
     details: [],
   };
 }
