@@ -43,6 +43,12 @@ def explorers():
     }
 
 
+def narrow_settings(explorer, rng, count):
+    """Settings all over the sliders, with bumps so narrow that no wheel starts on them."""
+    for setting in random_settings(explorer, rng, count):
+        yield setting | {"sigma": 0.01 + 0.2 * setting["sigma"]}
+
+
 CASES = ["one bump", "two bumps, unsymmetric", "undamped, short"]
 
 
@@ -91,7 +97,7 @@ def test_stability_is_pythons_too_without_dampers(explorers, scheme_index, tmp_p
 
 def test_what_a_run_is_judged_by_is_the_exact_margin(explorers, tmp_path):
     explorer, rng = explorers["one bump"], np.random.default_rng(5)
-    settings = list(random_settings(explorer, rng, 60))
+    settings = list(narrow_settings(explorer, rng, 60))
     answers = ask_page(tmp_path, explorer, "truth", settings)
     for setting, answer in zip(settings, answers, strict=True):
         robot, road = family_at(explorer, setting)
@@ -104,7 +110,7 @@ def test_what_a_run_is_judged_by_is_the_exact_margin(explorers, tmp_path):
 def test_the_curve_over_all_speeds_is_that_of_the_exact_margins(explorers, tmp_path):
     explorer, rng = explorers["one bump"], np.random.default_rng(6)
     own = explorer.family.own | {"v": 1.0, "dt": 0.001, "scheme_index": 0}
-    settings = [own, *random_settings(explorer, rng, 7)]
+    settings = [own, *narrow_settings(explorer, rng, 7)]
     answers = ask_page(tmp_path, explorer, "curve", settings)
     for setting, answer in zip(settings, answers, strict=True):
         robot, road = family_at(explorer, setting)
@@ -123,16 +129,10 @@ def charts():
     }
 
 
-def chart_settings(explorer, count):
-    """Settings all over the sliders, with bumps so narrow that no wheel starts on them."""
-    for setting in random_settings(explorer, np.random.default_rng(12), count):
-        yield setting | {"sigma": 0.01 + 0.2 * setting["sigma"]}
-
-
 @pytest.mark.parametrize("case", ["symmetric", "unsymmetric"])
 def test_the_charts_highest_bump_is_pythons(charts, case, tmp_path):
     explorer = charts[case]
-    settings = list(chart_settings(explorer, 60))
+    settings = list(narrow_settings(explorer, np.random.default_rng(12), 60))
     settings[0]["height"] = 0.0  # a level road has its chart, too
     settings[1]["c"] = 0.0
     load = (ROBOT.C @ ROBOT.equilibrium).max()
@@ -148,7 +148,7 @@ def test_the_charts_highest_bump_is_pythons(charts, case, tmp_path):
 
 def test_the_charts_limits_are_pythons(charts, tmp_path):
     explorer = charts["symmetric"]
-    settings = list(chart_settings(explorer, 12))
+    settings = list(narrow_settings(explorer, np.random.default_rng(12), 12))
     names = [limit["name"] for limit in explorer.facts["chart"]["limits"]]
     assert names == ["follow", "throw", "skim"]
     for setting, answer in zip(settings, ask_page(tmp_path, explorer, "chart", settings)):
