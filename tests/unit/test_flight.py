@@ -270,7 +270,9 @@ def test_a_road_with_kinks_flies_as_in_fine_steps(name, v, wheel):
         np.testing.assert_allclose(flight.W[:, -1], w, atol=1e-5)
 
 
-@pytest.mark.parametrize("v, switches", [(3, 7), (5, 6), (10, 4)])
+@pytest.mark.parametrize(
+    "v, switches", [(3, 7), pytest.param(5, 6, marks=pytest.mark.slow), (10, 4)]
+)
 def test_a_half_sine_bump_makes_nobody_chatter(v, switches):
     road = half_sine()
     told, silent = (fly(ROBOT, r, v=v, tfinal=0.9 / v) for r in (road.road, road.silent()))
