@@ -11,6 +11,8 @@ BUILD := PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
+# Its import takes every process a second, and only notebooks need it.
+WITHOUT_NBVAL := -p no:nbval --override-ini addopts="--doctest-modules --import-mode=importlib -q"
 # Notebooks and tests run side by side: threads for small matrices would only stand in their way.
 export OPENBLAS_NUM_THREADS := 1
 
@@ -31,7 +33,7 @@ lint: $(VENV)
 
 # After every change: under a minute, and no book is needed. Tests marked slow wait for `make test`.
 quick: lint
-	$(PYTEST) --dist worksteal -m "not slow" tests/unit suspension
+	$(PYTEST) --dist worksteal -m "not slow" $(WITHOUT_NBVAL) tests/unit suspension
 
 # Before a change is handed in: everything.
 test: book lint

@@ -1,6 +1,7 @@
 """What the explorer's page iterates: tableaux, stability regions, the road as polynomials."""
 
 import warnings
+from functools import cache
 
 import numpy as np
 
@@ -118,6 +119,7 @@ def scheme_facts(scheme):
     }
 
 
+@cache  # every explorer asks for those of the same few schemes, and following a curve takes a while
 def region(scheme, far=1e3):
     """The region of absolute stability as polygons that are filled by the even-odd rule.
 

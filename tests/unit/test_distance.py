@@ -106,7 +106,13 @@ def test_a_bump_beyond_the_course_is_refused_with_a_distance_that_does(drive):
 
 
 @each_drive
-@pytest.mark.parametrize("way", [{}, {"distance": 3.0}], ids=["course", "distance"])
+@pytest.mark.parametrize(
+    "way",
+    [
+        pytest.param({}, id="course"),
+        pytest.param({"distance": 3.0}, id="distance", marks=pytest.mark.slow),
+    ],
+)
 def test_a_wheel_that_starts_on_the_bump_is_refused_with_a_place_that_does(drive, way):
     with pytest.raises(ValueError, match="^bump must begin ahead") as refused:
         drive(replace(BUMP, centre=0.2), **way)

@@ -11,20 +11,20 @@ CROOKED = Robot(500, 900, m=2.0, L1=0.08, L2=0.13, c1=3.0, c2=1.0)
 
 
 @pytest.mark.parametrize("robot", [ROBOT, CROOKED])
-@pytest.mark.parametrize("v", [0.25, 1.2, 5, 25])
+@pytest.mark.parametrize("v", [pytest.param(0.25, marks=pytest.mark.slow), 1.2, 5, 25])
 @pytest.mark.parametrize("wheel", ["follows", "relaxes"])
 def test_what_the_road_puts_in_is_all_there(robot, v, wheel):
     flight = fly(robot, BUMP, v=v, tfinal=1.25 / v, wheel=wheel, samples=40001)
     e = energy(flight, robot, BUMP)
     scale = e.work.max()
-    assert np.abs(e.kinetic + e.potential + e.heat - e.work).max() < 2e-5 * scale
+    assert np.abs(e.kinetic + e.potential + e.heat - e.work).max() < 5e-7 * scale
     if wheel == "relaxes":  # heat is made, never taken back
         assert np.diff(e.heat).min() > -1e-9 * scale
     assert min(e.kinetic.min(), e.potential.min()) > -1e-6 * scale
 
 
 def test_after_a_long_time_all_of_it_is_heat():
-    flight = fly(ROBOT, BUMP, v=1.2, tfinal=8, samples=80001)
+    flight = fly(ROBOT, BUMP, v=1.2, tfinal=4, samples=40001)
     e = energy(flight, ROBOT, BUMP)
     assert e.heat[-1] == pytest.approx(e.work[-1], rel=1e-3)
 

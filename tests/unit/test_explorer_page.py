@@ -89,7 +89,9 @@ def test_stability_is_pythons_too_without_dampers(explorers, scheme_index, tmp_p
         {**explorer.family.own, "v": 5.0, "dt": dt, "scheme_index": scheme_index}
         for dt in (0.0003, 0.002, 0.03, 0.05, 0.1, 0.2)
     ]
-    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "run", settings)):
+    for setting, answer in zip(
+        settings, ask_page(tmp_path, explorer, "run", settings), strict=True
+    ):
         stable = max(answer["growths"]) <= 1 + 1e-12
         scheme = explorer.schemes[scheme_index]
         assert stable == scheme.is_stable(explorer.family.robot.eigenvalues, setting["dt"])
@@ -136,7 +138,9 @@ def test_the_charts_highest_bump_is_pythons(charts, case, tmp_path):
     settings[0]["height"] = 0.0  # a level road has its chart, too
     settings[1]["c"] = 0.0
     load = (ROBOT.C @ ROBOT.equilibrium).max()
-    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "chart", settings)):
+    for setting, answer in zip(
+        settings, ask_page(tmp_path, explorer, "chart", settings), strict=True
+    ):
         robot, road = family_at(explorer, setting)
         v = np.array(answer["speeds"])[::16]
         exact = highest_bump(robot, road, v, distance=explorer.distance)
@@ -151,7 +155,9 @@ def test_the_charts_limits_are_pythons(charts, tmp_path):
     settings = list(narrow_settings(explorer, np.random.default_rng(12), 12))
     names = [limit["name"] for limit in explorer.facts["chart"]["limits"]]
     assert names == ["follow", "throw", "skim"]
-    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "chart", settings)):
+    for setting, answer in zip(
+        settings, ask_page(tmp_path, explorer, "chart", settings), strict=True
+    ):
         robot, road = family_at(explorer, setting)
         for n in (0, 50, 127):
             G = groups(robot, road, answer["speeds"][n])
@@ -173,7 +179,7 @@ def test_the_charts_words_say_where_contact_is_kept_and_whether_the_window_is_op
         "low": own | {"height": 0.001},
     }
     answers = ask_page(tmp_path, explorer, "chart", list(cases.values()))
-    for (case, setting), answer in zip(cases.items(), answers):
+    for (case, setting), answer in zip(cases.items(), answers, strict=True):
         robot, road = family_at(explorer, setting)
         text = answer["words"]["headline"].replace("\u00a0", " ")
         assert ("window is open" in text) == (case == "open")
@@ -196,7 +202,9 @@ def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
     for setting, v in zip(settings, (0.5, 0.8, 1.2, 2, 5, 8, 10, 20, 25)):
         setting |= explorer.family.own | {"v": v}
     switches = 0
-    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "flight", settings)):
+    for setting, answer in zip(
+        settings, ask_page(tmp_path, explorer, "flight", settings), strict=True
+    ):
         robot, road = family_at(explorer, setting)
         v = setting["v"]
         flight = fly(robot, road, v=v, tfinal=explorer.distance / v, resolution=0.02)
@@ -250,13 +258,17 @@ def test_a_cars_page_computes_what_python_computes(tmp_path):
         explorer.family.own | {"dt": 0.001, "scheme_index": 3, "v": v}
         for v in (0.3, 3.0, 30.0, 45.0)
     ] + list(random_settings(explorer, rng, 4))
-    for answer, setting in zip(ask_page(tmp_path, explorer, "curve", settings), settings):
+    for answer, setting in zip(
+        ask_page(tmp_path, explorer, "curve", settings), settings, strict=True
+    ):
         robot, road = family_at(explorer, setting)
         rest = robot.m * robot.g / 2
         for v, found in list(zip(answer["speeds"], np.min(answer["least"], axis=0)))[::16]:
             exact = margin(robot, road, v, explorer.distance / v)
             assert found == pytest.approx(exact, abs=0.008 * rest), v
-    for answer, setting in zip(ask_page(tmp_path, explorer, "flight", settings[:4]), settings):
+    for answer, setting in zip(
+        ask_page(tmp_path, explorer, "flight", settings[:4]), settings, strict=True
+    ):
         robot, road = family_at(explorer, setting)
         flight = fly(robot, road, v=setting["v"], tfinal=explorer.distance / setting["v"])
         events = [(event["wheel"] + 1, event["kind"]) for event in answer["events"]]
@@ -284,7 +296,9 @@ def test_the_page_follows_a_model_that_only_python_knows(tmp_path):
     settings = list(random_settings(explorer, np.random.default_rng(9), 12))
     for setting in settings:
         setting["dt"] = max(setting["dt"], 0.002)
-    for setting, answer in zip(settings, ask_page(tmp_path, explorer, "run", settings)):
+    for setting, answer in zip(
+        settings, ask_page(tmp_path, explorer, "run", settings), strict=True
+    ):
         robot, road = family_at(explorer, setting)
         v, dt, scheme = setting["v"], setting["dt"], explorer.schemes[setting["scheme_index"]]
         R, G = scheme.one_step(robot.A, dt)

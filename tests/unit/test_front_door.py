@@ -59,6 +59,7 @@ def test_what_it_does_not_have_it_says():
         _ = suspension.explorers
 
 
+@pytest.mark.slow  # a process that loads all of it
 def test_explore_is_loaded_when_it_is_first_used():
     code = (
         "import sys, suspension; assert 'explore' in dir(suspension);"

@@ -369,6 +369,7 @@ def test_the_command_ends_with_the_error_and_the_code_1(tmp_path, capsys):
     assert out == "" and err == f"own.csv, line 6: {RANGE} 100: per cent? divide by 100\n"
 
 
+@pytest.mark.slow  # a process that loads all of it
 def test_the_command_is_that_of_the_module_of_the_fit(tmp_path):
     path = tmp_path / "own.csv"
     path.write_text(csv(*ROWS), encoding="utf-8")

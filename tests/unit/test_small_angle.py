@@ -42,7 +42,9 @@ def margin_of_a_rigid_body(robot, v):
 
 @pytest.mark.slow
 def test_there_a_rigid_body_just_touches():
-    for v in critical_speeds(ROBOT, BUMP, 0.1, 30):
+    found = critical_speeds(ROBOT, BUMP, 0.1, 30)
+    assert len(found) == 3
+    for v in found:
         full = full_geometry(ROBOT, BUMP, v)
         below, above = (margin_of_a_rigid_body(ROBOT, full * (1 + e)) for e in (-3e-5, 3e-5))
         assert below * above < 0
