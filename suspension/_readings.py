@@ -14,13 +14,23 @@ import numpy as np
 from suspension._formats import COLUMNS, read_mat, read_text
 from suspension.problem import DELTA_MAX
 
-__all__ = ["COLUMNS", "TRUE_STIFFNESS", "Readings", "are_synthetic", "design", "main", "read"]
+__all__ = [
+    "COLUMNS",
+    "TRUE_STIFFNESS",
+    "Readings",
+    "are_synthetic",
+    "design",
+    "main",
+    "read",
+    "shipped",
+]
 
 # Beside the package in a checkout; inside it when it is installed.
 FOLDERS = (
     Path(__file__).resolve().parents[1] / "data",
     Path(__file__).resolve().parent / "data",
 )
+SHIPPED = FOLDERS  # of what is not read anew for each copy
 FILES = ("spring_data.mat", "spring_data.csv")
 
 # The synthetic stand-in, data/make_spring_data.py: its digest, so that another file under the same
@@ -96,6 +106,11 @@ def _default_file():
             if (folder / name).exists():
                 return folder / name
     raise ValueError(f"path must be given, because {FOLDERS[0]} holds no {' or '.join(FILES)}")
+
+
+def shipped(name):
+    """The path of a file that comes with the book and does not change: ``data/name``."""
+    return next(folder / name for folder in SHIPPED if (folder / name).is_file())
 
 
 def are_synthetic(displacement, force):

@@ -7,7 +7,7 @@ the accelerations they cause, ``w' = S w + P N + e``; everything else follows fr
 """
 
 from collections.abc import Callable
-from dataclasses import KW_ONLY, dataclass, fields
+from dataclasses import KW_ONLY, dataclass, fields, replace
 from functools import cached_property, wraps
 from typing import Any
 
@@ -147,6 +147,23 @@ class Robot:
         w = np.zeros(4)
         w[[0, 2]] = np.linalg.solve(self.A[np.ix_([1, 3], [0, 2])], -self.e[[1, 3]])
         return w + 0.0  # no -0.0
+
+    @property
+    def twin(self) -> "Robot":
+        """The symmetric robot with the means of k1 and k2, c1 and c2, L1 and L2.
+
+        A symmetric robot is its own twin.
+
+        Examples
+        --------
+        >>> Robot(700, 900).twin == Robot(800, 800)
+        True
+        """
+        rear, front = (self.k1, self.c1, self.L1), (self.k2, self.c2, self.L2)
+        if rear == front:
+            return self
+        k, c, L = ((a + b) / 2 for a, b in zip(rear, front))
+        return replace(self, k1=k, k2=k, c1=c, c2=c, L1=L, L2=L)
 
     @property
     def eigenvalues(self) -> np.ndarray:

@@ -28,6 +28,7 @@ __all__ = [
     "fit_spring",
     "is_synthetic",
     "load_spring_data",
+    "load_vehicles",
 ]
 
 EXACT = 1e-12  # residuals below this part of the largest force are roundoff
@@ -453,6 +454,16 @@ class SpringFit:
     def _needs_an_error(self):
         if self.free < 1:
             raise ValueError("data must have more points than the three coefficients, got 3")
+
+
+def load_vehicles():
+    """Published suspensions, for the chart of Part IV; ``data/README.md`` describes the columns.
+
+    Returns
+    -------
+    vehicles : DataFrame
+    """
+    return pd.read_csv(_readings.shipped("vehicles.csv"), index_col=False)
 
 
 def fit_spring(data, delta_max=DELTA_MAX):

@@ -19,6 +19,7 @@ __all__ = [
     "limits_figure",
     "losses",
     "ratio_table",
+    "twin_note",
     "two_ways",
     "vehicle_table",
     "vehicles_figure",
@@ -354,4 +355,21 @@ def vehicles_figure(rides):
         "damping.",
         "Bars of speed for vehicles over curves of the highest bump for several dampings. Contact "
         f"is {words}.",
+    )
+
+
+def twin_note(robot):
+    """Which robot a part is about whose formulas need a symmetric one; empty for such a robot.
+
+    Parameters
+    ----------
+    robot : Robot
+    """
+    twin = robot.twin
+    if twin == robot:
+        return ""
+    return (
+        "The robot is not symmetric, and the formulas of this part ask for one that is. So it is "
+        f"about the **symmetric twin**, with the means of both axles: $k$ = {number(twin.k1, 4)}"
+        f"{SPACE}N/m, $c$ = {number(twin.c1)}{SPACE}N{SPACE}s/m, $L$ = {number(twin.L1)}{SPACE}m."
     )

@@ -162,3 +162,9 @@ def test_the_groups_are_those_of_the_robot():
     text = part.groups_table(G, 1.2)
     assert all(f"| {x} |" in text for x in ("1.26", "0.0624", "2.82", "0.720", "3.72"))
     assert text.count("\n") == table([{"a": 1}] * 5).count("\n")
+
+
+def test_a_robot_that_is_not_symmetric_is_told_its_twin():
+    assert part.twin_note(Robot(800, 800)) == ""
+    note = part.twin_note(Robot(700, 900, c2=2.5))
+    assert "**symmetric twin**" in note and "$k$ = 800.0" in note and "$c$ = 2.00" in note

@@ -220,3 +220,10 @@ def test_the_share_of_heave_is_a_share_from_either_side(robot):
     assert ((robot.heave_share >= 0) & (robot.heave_share <= 1)).all()
     if np.min(np.abs(np.subtract.outer(robot.eigenvalues, robot.eigenvalues) + np.eye(4))) > 1e-3:
         assert np.allclose(mirrored(robot).heave_share, robot.heave_share, atol=1e-6)
+
+
+def test_a_twin_is_symmetric_and_nothing_else_changes():
+    robot = Robot(700, 900, m=2.0, L1=0.08, L2=0.12, c1=1.0, c2=2.0)
+    twin = robot.twin
+    assert twin == Robot(800, 800, m=2.0, L1=0.1, L2=0.1, c1=1.5, c2=1.5)
+    assert twin.twin is twin

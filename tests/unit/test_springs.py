@@ -413,3 +413,9 @@ def test_an_interval_that_cannot_be_is_refused_by_name(name, value):
 def test_a_largest_displacement_that_cannot_be_is_refused(delta_max):
     with pytest.raises(ValueError, match=r"^delta_max must be a finite number > 0"):
         fit_spring(noisy(), delta_max)
+
+
+def test_vehicles_are_numbers_with_their_sources():
+    vehicles = springs.load_vehicles()
+    assert len(vehicles) >= 6 and vehicles["source"].str.len().min() > 3
+    assert (vehicles.select_dtypes("number") > 0).all(axis=None)
