@@ -16,11 +16,10 @@ from scipy.linalg import matmul_toeplitz
 from statsmodels.regression.linear_model import OLSResults, RegressionResultsWrapper
 
 from suspension import _checks, _readings
-from suspension._readings import COLUMNS, TRUE_STIFFNESS
+from suspension._readings import COLUMNS
 from suspension.problem import DELTA_MAX
 
 __all__ = [
-    "TRUE_STIFFNESS",
     "Linearity",
     "Neighbours",
     "SpringFit",

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from suspension._readings import TRUE_STIFFNESS
 from suspension.report.words import (
     SPACE,
     count,
@@ -12,7 +13,7 @@ from suspension.report.words import (
     percent,
     quantity,
 )
-from suspension.springs import TRUE_STIFFNESS, is_synthetic
+from suspension.springs import is_synthetic
 
 __all__ = [
     "bump_rows",

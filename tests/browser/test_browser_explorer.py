@@ -397,6 +397,7 @@ def test_the_headline_is_never_surer_than_the_exact_margin(visit, pages):
         settings = {
             name: place(reach, rng) for name, reach in ranges_of(Family(*PAGES["bump"])).items()
         }
+        settings["sigma"] = 0.01 + 0.2 * settings["sigma"]  # so that no wheel starts on the bump
         go_to(tab, scheme=rng.choice([scheme.name for scheme in SCHEMES]), **settings)
         text, exact = headline(tab), tab.locator(VIEW).evaluate("root => root.trajectory().exact")
         lost = bool(exact["lost"])
