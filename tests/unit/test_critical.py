@@ -126,10 +126,8 @@ def test_stiffness_at_which_the_verdict_flips(v, flip):
 @pytest.mark.slow
 def test_both_springs_keep_their_ratio():
     robot = ROBOTS["unsymmetric"]
-    found = critical_stiffness(robot, BUMP, 5, 100, 3000)
-    assert len(found)
-    for k in found:
-        assert abs(margin(replace(robot, k1=k, k2=k * 1400 / 600), BUMP, 5)) < 1e-9
+    (k,) = critical_stiffness(robot, BUMP, 3, 100, 3000)
+    assert abs(margin(replace(robot, k1=k, k2=k * 1400 / 600), BUMP, 3)) < 1e-9
 
 
 # --- sensitivity ------------------------------------------------------------------------------
@@ -142,13 +140,13 @@ def test_critical_speeds_move_as_the_sensitivities_say(names):
         return replace(ROBOT, **{name: factor * getattr(ROBOT, name) for name in names})
 
     step = 1e-4
-    for v in critical_speeds(ROBOT, BUMP, 5, 10):
-        slope = -sensitivity(ROBOT, BUMP, v, *names) / sensitivity(ROBOT, BUMP, v, "v")
-        moved = [
-            critical_speeds(changed(factor), BUMP, 0.99 * v, 1.01 * v)[0]
-            for factor in (1 - step, 1 + step)
-        ]
-        assert np.log(moved[1] / moved[0]) / (2 * step) == pytest.approx(slope, rel=1e-4, abs=1e-6)
+    (v,) = critical_speeds(ROBOT, BUMP, 5, 10)
+    slope = -sensitivity(ROBOT, BUMP, v, *names) / sensitivity(ROBOT, BUMP, v, "v")
+    moved = [
+        critical_speeds(changed(factor), BUMP, 0.99 * v, 1.01 * v)[0]
+        for factor in (1 - step, 1 + step)
+    ]
+    assert np.log(moved[1] / moved[0]) / (2 * step) == pytest.approx(slope, rel=1e-4, abs=1e-6)
 
 
 @pytest.mark.parametrize("v", [0.25, 1.2, 5, 10])

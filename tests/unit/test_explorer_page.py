@@ -267,7 +267,7 @@ def test_a_cars_page_computes_what_python_computes(tmp_path):
             exact = margin(robot, road, v, explorer.distance / v)
             assert found == pytest.approx(exact, abs=0.008 * rest), v
     for answer, setting in zip(
-        ask_page(tmp_path, explorer, "flight", settings[:4]), settings, strict=True
+        ask_page(tmp_path, explorer, "flight", settings[:4]), settings[:4], strict=True
     ):
         robot, road = family_at(explorer, setting)
         flight = fly(robot, road, v=setting["v"], tfinal=explorer.distance / setting["v"])

@@ -152,7 +152,7 @@ def test_every_wheel_has_its_own_load():
 @pytest.fixture(scope="module")
 def chart():
     """The chart of the problem's robot, which no height of the bump changes: speeds, heights."""
-    v = np.geomspace(0.1, 30, 300)
+    v = np.geomspace(0.1, 30, 150)
     return v, highest_bump(ROBOT, BUMP, v)
 
 
