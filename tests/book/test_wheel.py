@@ -115,5 +115,5 @@ def test_a_wheel_carries_the_data_that_the_book_was_built_from(lecturers, tmp_pa
 
 def test_a_wheel_carries_nothing_else_from_the_folder_of_the_data(lecturers, tree):
     carried = {path.name for path in (lecturers / "suspension" / "data").iterdir()}
-    assert carried == {"spring_data.csv", "spring_data.mat"}
+    assert carried == {"spring_data.csv", "spring_data.mat", "vehicles.csv"}
     assert carried < {path.name for path in (tree / "data").iterdir()}
