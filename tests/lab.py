@@ -1,6 +1,7 @@
 """A JupyterLab of its own, for the tests and the benchmark of the explorer."""
 
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -47,6 +48,7 @@ def serve(folder, *options):
         cwd=folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
+        start_new_session=True,
     )
     try:
         for _ in range(240):
@@ -57,8 +59,17 @@ def serve(folder, *options):
             time.sleep(0.25)
         yield f"http://127.0.0.1:{port}/"
     finally:
-        server.terminate()
+        stop(server)
+
+
+def stop(server):
+    """End a server and its kernels; one too busy to shut them down by itself is killed."""
+    server.terminate()
+    try:
         server.wait(30)
+    except subprocess.TimeoutExpired:
+        os.killpg(server.pid, signal.SIGKILL)
+        server.wait()
 
 
 def run_all(tab, address, notebook):
