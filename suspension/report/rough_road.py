@@ -36,7 +36,7 @@ def rides_table(names, speeds, linear, short, found, longer):
                     "suspension": name,
                     "v (m/s)": f"{v:g}",
                     "force, linear (N)": fixed(linear[i][j], 2),
-                    "of its square short waves": part(short[i][j]),
+                    "share of short waves": percent(short[i][j], 3),
                     "force (N)": _spread(found.force[0, :, i, j], 2),
                     "acceleration (m/s²)": _spread(found.acceleration[:, i, j], 2),
                     "rear wheel in the air": part(found.air[0, :, i, j].mean()),
@@ -56,8 +56,14 @@ def _spread(values, decimals):
     return mean if float(scatter) == 0 else f"{mean} ± {scatter}"
 
 
-def flights(names, speeds, found, longer):
-    """Who flies where, what so many roads can say about it, and what the short waves do to it."""
+def flights(names, speeds, linear, found, longer):
+    """Who flies where, what that does to the force, and what short waves have to do with it.
+
+    Parameters
+    ----------
+    names, speeds, linear, found, longer
+        As for `rides_table`.
+    """
     lines = []
     for i, name in enumerate(names):
         flown, left = (each.flights.sum(axis=0)[:, i] > 0 for each in (found, longer))
@@ -68,10 +74,14 @@ def flights(names, speeds, found, longer):
                 f"flies on less than {below} of such roads; so many roads say no more."
             )
             continue
-        line = f"“{name}” flies at {_speeds(speeds, flown.any(axis=0))}"
+        flies = flown.any(axis=0)
+        line = f"“{name}” flies at {_speeds(speeds, flies)}"
         if flown.all(axis=0).any():
             line += f", on every road at {_speeds(speeds, flown.all(axis=0))}"
-        gone = flown.any(axis=0) & ~left.any(axis=0)
+        ratio = found.force[0, :, i].mean(axis=0)[flies] / linear[i][flies]
+        if (ratio < 1).all():
+            line += ". There the rear wheel's force scatters less than the linear robot's"
+        gone = flies & ~left.any(axis=0)
         if gone.any():
             line += f". Without the short waves it never does at {_speeds(speeds, gone)}"
         lines.append(line + ".")
