@@ -40,8 +40,8 @@ def rides_table(names, speeds, linear, short, found, longer):
                     "force (N)": _spread(found.force[0, :, i, j], 2),
                     "acceleration (m/s²)": _spread(found.acceleration[:, i, j], 2),
                     "rear wheel in the air": part(found.air[0, :, i, j].mean()),
-                    "flights": _spread(flown, 0),
-                    "without the short waves": _spread(left, 0),
+                    "flights": _spread(flown, 1),
+                    "without the short waves": _spread(left, 1),
                 }
             )
     return table(rows)
