@@ -29,11 +29,13 @@ __all__ = [
     "slope_sentence",
     "source_sentence",
     "speed_digits",
+    "speed_row",
     "stiffness_rows",
     "stiffness_sentence",
     "synthetic_note",
 ]
 
+SPEED_ROW = "critical speed (m/s)", f"95{SPACE}% interval (m/s)", "note"
 BETRAYED = "../notebooks/01-regression.ipynb#what-would-betray-a-wrong-model"
 SYMBOLS = {
     "g": ("$g$", "m/s²", "gravity"),
@@ -157,10 +159,10 @@ def _question(name, values, unit, questions):
 
 
 def synthetic_note(data):
-    """A short sentence for any page, empty if the data are not synthetic."""
-    if not is_synthetic(data):
-        return ""
-    return "The spring data are synthetic: they stand in for measurements that are not public."
+    """A short sentence for any page: on which spring its numbers rest."""
+    if is_synthetic(data):
+        return "The spring data are synthetic: they stand in for measurements that are not public."
+    return "The spring is one that was measured, not the synthetic one of this project."
 
 
 def made_sentence(data):
@@ -373,28 +375,23 @@ def consequence_rows(by_stiffness):
     rows = []
     for stiffness, speeds in by_stiffness:
         name = f"{stiffness.name}, {_stiffness(stiffness.value, stiffness.error)}{SPACE}N/m"
-        for critical in speeds:
-            rows.append(_consequence(name, critical))
-        if not speeds:
-            rows.append(_row(name, "none", "–", "–"))
+        told = [speed_row(critical) for critical in speeds] or [dict.fromkeys(SPEED_ROW, "–")]
+        rows += [{"stiffness": name, **row} for row in told]
     return rows
 
 
-def _consequence(name, critical):
+def speed_row(critical):
+    """A critical speed, its interval, and where in that of the stiffness it exists.
+
+    Parameters
+    ----------
+    critical : suspension.uncertainty.CriticalSpeed
+    """
     low, high = critical.low, critical.high
     digits = speed_digits(low, high)
-    at_estimate = "–" if critical.speed is None else number(critical.speed, digits)
+    speed = "–" if critical.speed is None else number(critical.speed, digits)
     ends = f"{number(low, digits)} to {number(high, digits)}"
-    return _row(name, at_estimate, ends, existence(critical) or "–")
-
-
-def _row(name, speed, ends, note):
-    return {
-        "stiffness": name,
-        "critical speed (m/s)": speed,
-        f"95{SPACE}% interval (m/s)": ends,
-        "note": note,
-    }
+    return dict(zip(SPEED_ROW, (speed, ends, existence(critical) or "–")))
 
 
 def speed_digits(low, high):

@@ -11,7 +11,7 @@ import numpy as np
 
 from suspension.contact import is_lost
 from suspension.forces import WHEEL
-from suspension.report.data import existence, speed_digits
+from suspension.report.data import speed_digits, speed_row
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -38,7 +38,6 @@ __all__ = [
     "critical_table",
     "doubt",
     "full_geometry",
-    "landing_data",
     "landing_opening",
     "lesson",
     "map_caption",
@@ -46,7 +45,6 @@ __all__ = [
     "other_readings",
     "sensitivity_caption",
     "stronger_dampers",
-    "strongest",
     "travel_caption",
     "verdict",
 ]
@@ -89,11 +87,6 @@ def landing_opening(regimes):
     }
     answer = answers.get(tuple(regimes.lost.tolist()), "The answer is stranger.")
     return f"One would expect: above some speed. {answer}"
-
-
-def landing_data(note):
-    """On which spring the numbers rest; `note` says that the data are synthetic, or is empty."""
-    return note or "The spring is one that was measured, not the synthetic one of this project."
 
 
 def verdict(regimes, beyond=()):
@@ -197,9 +190,8 @@ def balance_table(critical, balances):
     """
     if not len(critical):
         return "There is no critical speed in the range, and so no balance of this kind."
-    rows = []
-    for parts, name in zip(balances, distinct(critical), strict=True):
-        rows.append(
+    return table(
+        [
             {
                 "critical speed (m/s)": name,
                 "wheel": WHEEL[parts.wheel],
@@ -207,25 +199,13 @@ def balance_table(critical, balances):
                 "damper (N)": fixed(parts.damper, 2),
                 "what happens": "the damper pulls" if parts.pulled else "the body is thrown",
             }
-        )
-    pulled = [v for v, parts in zip(critical, balances) if parts.pulled]
-    thrown = [v for v, parts in zip(critical, balances) if not parts.pulled]
-    words = []
-    if thrown:
-        words.append(
-            f"At {speed_list(thrown)} the spring has all but reached its full length when the "
-            "force vanishes: the body has risen away from the wheel."
-        )
-    if pulled:
-        words.append(
-            f"At {speed_list(pulled)} the spring is still compressed, and pushes; it is the "
-            "damper that takes away what the spring gives."
-        )
-    return "\n\n".join([table(rows), " ".join(words)])
+            for parts, name in zip(balances, distinct(critical), strict=True)
+        ]
+    )
 
 
 def stronger_dampers(before, after, still):
-    """What dampers twice as strong do, beside what the body that does not move says of them.
+    """What dampers twice as strong do to the verdicts, and to a wheel under a body that is still.
 
     Parameters
     ----------
@@ -234,33 +214,17 @@ def stronger_dampers(before, after, still):
     still : pair of float
         Speeds, m/s, at which a wheel is pulled off under a body that does not move, before, after.
     """
-    own, left = _window(before), _window(after)
-    if own is None:
-        return f"With dampers twice as strong contact is {ranges(after)}."
-    low, high = map(number, own)
-    safer = f"in which faster is safer, from {low} to {high}{SPACE}m/s,"
-    if left is None:
-        return (
-            "The robot's own body does move meanwhile, and what is left of the range "
-            f"{safer} is nothing: with dampers twice as strong contact is {ranges(after)}."
-        )
-    becomes = "shrinks" if left[1] / left[0] < own[1] / own[0] else "changes"
-    return (
-        "The robot's own body does move meanwhile. Its last critical speed goes from "
-        f"{high} to {number(left[1])}{SPACE}m/s, by a factor of {number(own[1] / left[1], 2)} "
-        f"where the body held still has {number(still[0] / still[1], 2)}, and the range {safer} "
-        f"{becomes} to that from {number(left[0])} to {number(left[1])}{SPACE}m/s."
+    names = "the robot's own", "twice as strong"
+    return table(
+        [
+            {
+                "dampers": name,
+                "contact is": ranges(found),
+                "under a still body, lost from (m/s)": number(v),
+            }
+            for name, found, v in zip(names, (before, after), still, strict=True)
+        ]
     )
-
-
-def _window(regimes):
-    """The last range in which contact is kept, if it is lost before and after; else None."""
-    spans = [
-        span
-        for span in regimes.spans(lost=False)
-        if span[0] > regimes.edges[0] and span[1] < regimes.edges[-1]
-    ]
-    return spans[-1] if spans else None
 
 
 def critical_table(intervals, full):
@@ -286,25 +250,15 @@ def critical_table(intervals, full):
     return f"{table(rows)}\n\n{note}"
 
 
-def _digits(critical):
-    """How many digits of a critical speed its interval leaves."""
-    relative = (critical.high - critical.low) / critical.high
-    return int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
-
-
 def _critical_row(critical, full):
     speed, low, high = critical.speed, critical.low, critical.high
-    digits = _digits(critical)
     half = "–"
     if speed is not None and critical.everywhere:
         half = percent((high - low) / 2 / speed) if high > low else "0"
-    return {
-        "critical speed (m/s)": "–" if speed is None else number(speed, digits),
-        "95 % interval (m/s)": f"{number(low, digits)} to {number(high, digits)}",
-        "relative half-width": half,
-        "in the full geometry (m/s)": "–" if full is None else number(full, digits),
-        "note": existence(critical) or "–",
-    }
+    moved = "–" if full is None else number(full, speed_digits(low, high))
+    row = speed_row(critical)
+    note = row.pop("note")
+    return row | {"relative half-width": half, "in the full geometry (m/s)": moved, "note": note}
 
 
 def full_geometry(intervals, full):
@@ -318,68 +272,54 @@ def full_geometry(intervals, full):
     pairs = [(c, v) for c, v in zip(intervals, full, strict=True) if c.speed is not None]
     if not pairs:
         return "There is no critical speed that another geometry could move."
-    words, outside = [], []
+    words = []
     for critical, moved in pairs:
-        digits = _digits(critical)
+        digits = speed_digits(critical.low, critical.high)
         name = f"{number(critical.speed, digits)}{SPACE}m/s"
         if moved is None:
             words.append(f"{name} has no counterpart nearby")
-            outside.append(name)
-            continue
-        change = moved / critical.speed - 1
-        sign = "+" if change > 0 else ""
-        becomes = f"becomes {number(moved, digits)}{SPACE}m/s ({sign}{percent(change)})"
-        same = number(moved, digits) == number(critical.speed, digits)
-        words.append(f"{name} {'stays' if same else becomes}")
-        if not critical.low <= moved <= critical.high:
-            outside.append(name)
-    told = f"In the full geometry {join(words)}."
-    if not any(c.high > c.low for c, _ in pairs):
-        return f"{told} The readings leave nothing open here, so this is all the error there is."
-    if not outside:
-        inside = "It stays inside its interval" if len(pairs) == 1 else "Each stays in its interval"
-        return f"{told} {inside}: here the small angle costs less than the readings leave open."
-    rest = ""
-    if len(outside) < len(pairs):
-        rest = " The rest stay inside." if len(pairs) - len(outside) > 1 else " The other stays in."
+        elif not critical.low <= moved <= critical.high:
+            change = percent(abs(moved / critical.speed - 1))
+            way = "up" if moved > critical.speed else "down"
+            words.append(f"{name} moves {way} by {change}, **out of** its interval")
+    if words:
+        return (
+            f"In the full geometry {join(words)}: there the small angle costs more than the "
+            "readings leave open."
+        )
     return (
-        f"{told} **Outside** the 95{SPACE}% interval: {join(outside)}. There the small angle costs "
-        f"more than the readings leave open.{rest}"
+        "In the full geometry every critical speed stays inside its interval: here the small angle "
+        "costs less than the readings leave open."
     )
 
 
 def other_readings(by_stiffness):
-    """What becomes of each critical speed of the asked stiffness by the other readings of the data.
+    """Whether the other readings of the data move a critical speed out of the asked one's interval.
 
     Parameters
     ----------
     by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
         From `suspension.uncertainty.critical_speeds_by_stiffness`, the asked stiffness first.
     """
-    found = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
-    asked, *others = found
-    names = join([f"the {stiffness.name}" for stiffness, _ in by_stiffness[1:]], "or")
-    if len({len(speeds) for speeds in found}) > 1:
+    asked, *others = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
+    if any(len(speeds) != len(asked) for speeds in others):
         return "The readings do not even agree on how many critical speeds there are."
     if not asked:
         return "By none of the readings is there a critical speed in the range."
-    words, outside = [], []
-    for own, *moved in zip(asked, *others, strict=True):
-        digits = speed_digits(own.low, own.high)
-        name = number(own.speed, digits)
-        new = list(dict.fromkeys(number(c.speed, digits) for c in moved))
-        becomes = "stays as it is" if new == [name] else f"becomes {join(new, 'or')}{SPACE}m/s"
-        words.append(f"{name}{SPACE}m/s {becomes}")
-        if not all(own.low <= c.speed <= own.high for c in moved):
-            outside.append(name)
-    each = "each of them" if len(asked) > 1 else "which is"
-    where = f"{each} inside the interval that belongs to the asked stiffness"
+    outside = [
+        number(own.speed, speed_digits(own.low, own.high))
+        for own, *moved in zip(asked, *others, strict=True)
+        if not all(own.low <= c.speed <= own.high for c in moved)
+    ]
     if outside:
-        where = (
-            f"and what becomes of {join(outside)}{SPACE}m/s lies **outside** the asked "
-            "stiffness's interval"
+        return (
+            f"Another reading moves {join(outside)}{SPACE}m/s **out of** the interval that belongs "
+            "to the asked stiffness."
         )
-    return f"By {names}, {join(words)}, {where}."
+    return (
+        "Whichever reading one takes, each critical speed stays inside the interval that belongs "
+        "to the asked stiffness."
+    )
 
 
 def confidence_table(asked):
@@ -405,17 +345,15 @@ def confidence_table(asked):
 def confidence_note(asked, stiffness):
     """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
-        "The margins, and where the verdict flips, are those of the asked stiffness, the "
-        f"parabola's slope at zero, {quantity(stiffness, 'N/m', 4)}. The confidence that "
-        f"contact is lost is given for each reading of the data by itself: the "
-        f"{join(asked[0].lost)}."
+        "The margins, and where the verdict flips, are those of the asked stiffness, "
+        f"{quantity(stiffness, 'N/m', 4)}; the confidence that contact is lost is given for each "
+        "reading of the data."
     )
     beyond = [speed.v for speed in asked if speed.stretch > 1]
     if beyond:
         words += (
             f" An asterisk, at {speed_list(beyond)}: **if the spring stays linear** beyond "
-            r"$\delta_{\max}$; the regression knows nothing about it there, and no confidence "
-            "level includes that doubt."
+            r"$\delta_{\max}$; no confidence level includes that doubt."
         )
     return words
 
@@ -455,36 +393,16 @@ def map_caption(stiffness, k, asked, hatched):
 
 def sensitivity_caption(critical):
     """Caption of the sensitivities of the critical speeds."""
+    text = "By how many per cent each critical speed moves when a parameter grows by one per cent."
     if not len(critical):
-        text = "There is no critical speed in the range: nothing to move, the axes stay empty."
-        return Caption(text, "Empty axes, because there is no critical speed in the range.")
+        return Caption(
+            "There is no critical speed in the range: the axes stay empty.", "Empty axes."
+        )
     return Caption(
-        "By how many per cent each critical speed moves when a parameter grows by one per cent.",
+        text,
         "Bar chart: per cent change of each critical speed for one per cent more stiffness, "
         f"damping, mass, moment of inertia and wheel distance, at {speed_list(critical)}.",
     )
-
-
-def strongest(critical, percent):
-    """To which parameter each critical speed answers most.
-
-    Parameters
-    ----------
-    critical : sequence of float
-        Critical speeds, m/s.
-    percent : dict of str to sequence of float
-        For each parameter, the per cent by which each moves for one per cent of it.
-    """
-    if not len(critical):
-        return "Without a critical speed there is nothing that could answer."
-    most = [max(percent, key=lambda name: abs(percent[name][i])) for i in range(len(critical))]
-    names = distinct(critical)
-    which = "The critical speed answers" if len(critical) == 1 else "The critical speeds answer"
-    words = join(
-        f"{name} at {v}{SPACE}m/s ({fixed(percent[name][i], 2)}{SPACE}% per 1{SPACE}%)"
-        for i, (v, name) in enumerate(zip(names, most))
-    )
-    return f"{which} most strongly to {words}."
 
 
 def travel_caption(regimes, beyond, delta_max):
@@ -503,12 +421,11 @@ def travel_caption(regimes, beyond, delta_max):
     return Caption(text, alt)
 
 
-def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
+def doubt(regimes, beyond, at_rest, delta_max, tilt):
     """Where the verdicts rest on a spring that was never measured, and how far the body tilts.
 
     Parameters
     ----------
-    asked : sequence of Asked
     at_rest : float
         Compression of the springs at rest over `delta_max`.
     delta_max : float
@@ -533,9 +450,6 @@ def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
         )
     else:
         words.append(f"No spring is compressed beyond {limit}, as far as it was measured.")
-    each = join(f"{fixed(speed.stretch, 2)} at {speed.v:g}{SPACE}m/s" for speed in asked)
-    largest = "largest compression is" if len(asked) == 1 else "largest compressions are"
-    words.append(rf"In units of $\delta_{{\max}}$ the {largest} {each}.")
     words.append(
         f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
         f"where {small_angle(tilt)}; "
