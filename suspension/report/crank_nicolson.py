@@ -25,13 +25,11 @@ __all__ = [
     "modes",
     "phase_error",
     "road_caption",
-    "swing",
 ]
 
 LIGHT = 0.2  # a damping ratio below it is called light
 APPRECIABLE = 0.01  # a change by less than this part of the largest pitch is not
 AS_EXPECTED = 0.05  # how far, relatively, an observed factor may be from the promised one
-LONG = 0.25  # part of a swing beyond which a step does not follow it
 ROUNDOFF = 1e-9  # part of the largest error, below which an error is none
 TOGETHER = 0.02  # an error by less than this part of the largest pitch cannot be seen
 
@@ -92,25 +90,6 @@ def road_caption(speeds):
         f"narrower at {fast:g} m/s. Right, its rate: at {fast:g} m/s narrower and larger."
     )
     return Caption(text, alt)
-
-
-def swing(robot, scheme, dt):
-    """How much of the fastest swing one step of `dt` seconds takes."""
-    stable = scheme.is_stable(robot.eigenvalues, dt)
-    start = "Stable does not mean accurate." if stable else "Not even stable."
-    part = dt * robot.eigenvalues.imag.max() / (2 * np.pi)
-    if part == 0:
-        return (
-            f"{start} None of the modes swings: what a step of {dt:g} s gets wrong is how they "
-            "creep back."
-        )
-    value = "the swing is still followed, coarsely"
-    if part > LONG:
-        value = "what the method computes there is bounded, and wrong"
-    return (
-        f"{start} A step of {quantity(dt, 's', 1)} spans {number(part, 2)} swings of the "
-        f"fastest mode: {value}. [The appendix](../notebooks/20-accuracy.ipynb) measures how wrong."
-    )
 
 
 def coarse_caption(run, exact):

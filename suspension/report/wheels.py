@@ -151,8 +151,8 @@ def heaviest_caption(asked):
     return Caption(text, alt)
 
 
-def heaviest_sentence(regimes, v, mass, asked, robot):
-    """For which wheels the verdicts of a wheel without mass are true, and whether faster is safer.
+def heaviest_sentence(regimes, v, mass):
+    """For which wheels faster is safer.
 
     Parameters
     ----------
@@ -160,42 +160,23 @@ def heaviest_sentence(regimes, v, mass, asked, robot):
         Of wheels without mass.
     v, mass : array_like, shape (n,)
         Speeds, m/s, dense and within the regimes, and the heaviest wheel pairs there, kg.
-    asked : dict of float to float
-        The heaviest wheel pairs at the asked speeds.
-    robot : Robot
     """
     v, mass = np.asarray(v), np.asarray(mass)
-    words = []
-    free = [speed for speed, m in asked.items() if np.isinf(m)]
-    if free:
-        words.append(
-            f"At {speed_list(free)} the road nowhere falls away faster than gravity pulls, and a "
-            "wheel may weigh what it likes."
-        )
-    words += [
-        f"At {speed_list([speed])} a wheel pair may weigh {grams(m)}, {percent(m / robot.m)} of "
-        "the body, and no more."
-        for speed, m in asked.items()
-        if 0 < m < np.inf
-    ]
     lost, kept = (regimes.spans(lost=which) for which in (True, False))
     windows = [span for span in kept if len(lost) and span[0] >= lost[0, 1]]
     if not windows:
-        words.append("Contact, once lost, is not found again at a higher speed.")
-        return " ".join(words)
+        return "Contact, once lost, is not found again at a higher speed."
     low, high = windows[-1]
     inside = (low < v) & (v < high)
     most = mass[inside].max() if inside.any() else 0.0
-    where = f"from {number(low)} to {number(high)}{SPACE}m/s"
+    where = f"the window from {number(low)} to {number(high)}{SPACE}m/s"
     if np.isinf(most):
-        words.append(f"In a part of the window {where} a wheel may weigh what it likes.")
-    else:
-        words.append(
-            f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: "
-            f"in the window {where}, where wheels without mass keep contact, a heavier one leaves "
-            "the ground at every speed."
-        )
-    return " ".join(words)
+        return f"In a part of {where} a wheel may weigh what it likes."
+    return (
+        f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: in "
+        f"{where}, where wheels without mass keep contact, a heavier one leaves the ground at "
+        "every speed."
+    )
 
 
 def energy_caption(v):

@@ -113,7 +113,7 @@ def test_the_work_to_a_goal():
     assert "| RK4 | 200 |" in text and "| Heun | 200 |" in text
     assert "| Euler | > 400 |" in part.work_verdict(cost, force, list(cost))
     caption = part.work_caption(cost, force, 1.2, [1e-3, 1e-9])
-    assert "not reached by Euler" in plain(caption.alt) and "$10^{-9}$" in plain(caption.text)
+    assert "down to 0.01 N: Euler" in plain(caption.alt) and "$10^{-9}$" in plain(caption.text)
 
 
 def test_dips_that_are_seen_and_dips_that_are_not():

@@ -41,19 +41,15 @@ WINDOW = Regimes([0.1, 0.4, 8, 20, 30], [False, True, False, True])
 
 def test_faster_is_safer_up_to_the_heaviest_wheel_of_the_window():
     mass = np.where(WINDOW(V), 0, np.where(V < 1, np.inf, 0.1 / V))
-    asked = {0.25: np.inf, 1.2: 0.0, 10: 0.01}
-    words = part.heaviest_sentence(WINDOW, V, mass, asked, ROBOT)
-    assert "At 0.25\xa0m/s the road nowhere" in words and "1.2" not in words
-    assert "At 10\xa0m/s a wheel pair may weigh 10\xa0g, 0.69\xa0% of the body" in words
+    words = part.heaviest_sentence(WINDOW, V, mass)
     assert "lighter than 12\xa0g a pair" in words and "from 8.00 to 20.0\xa0m/s" in words
 
 
 def test_without_a_window_there_is_no_claim_about_it():
     mass = np.where(V < 1, np.inf, 0.0)
-    lost = Regimes([0.1, 0.4, 30], [False, True])
-    words = part.heaviest_sentence(lost, V, mass, {0.25: np.inf}, ROBOT)
+    words = part.heaviest_sentence(Regimes([0.1, 0.4, 30], [False, True]), V, mass)
     assert "not found again" in words and "Faster" not in words
-    free = part.heaviest_sentence(WINDOW, V, np.full(V.shape, np.inf), {}, ROBOT)
+    free = part.heaviest_sentence(WINDOW, V, np.full(V.shape, np.inf))
     assert "what it likes" in free and "Faster" not in free
 
 
