@@ -25,7 +25,6 @@ __all__ = [
     "flight_table",
     "models",
     "order_caption",
-    "order_sentence",
     "who_flies",
 ]
 
@@ -255,31 +254,11 @@ def order_caption(v, end, orders):
     orders : tuple of float
         Observed when the switches are ignored, and when they are located.
     """
-    text = (
-        f"RK4 through a flight at {v:g}{SPACE}m/s: error at $t$ = {fixed(end, 3)}{SPACE}s when "
-        "the steps "
-        "ignore the switches, and when they are fitted between them."
-    )
-    alt = (
+    blind, located = (fixed(order, 1) for order in orders)
+    return Caption(
+        f"RK4 through a flight at {v:g}{SPACE}m/s: error at $t$ = {fixed(end, 3)}{SPACE}s when the "
+        f"steps ignore the switches (observed order {blind}), and when they are fitted between "
+        f"them ({located}).",
         "Error against time step on logarithmic axes: RK4 that ignores the switches falls with "
-        f"slope {fixed(orders[0], 1)}, RK4 that stops at each switch with slope "
-        f"{fixed(orders[1], 1)}."
+        f"slope {blind}, RK4 that stops at each switch with slope {located}.",
     )
-    return Caption(text, alt)
-
-
-def order_sentence(v, orders):
-    """The orders observed at `v` in m/s, None if nothing lands; `orders` as in `order_caption`."""
-    if v is None:
-        return (
-            "With this spring no wheel lands at the asked speeds, so there is no switch to study "
-            "there. [Part VI](../notebooks/06-how-sure.ipynb) says where one does."
-        )
-    blind, located = orders
-    words = (
-        f"Observed orders: {fixed(blind, 1)} when the switches are ignored, {fixed(located, 1)} "
-        "when they are located."
-    )
-    if blind < 2 and abs(located - 4) < 0.5:
-        words += " The fourth order is lost at one switch, and found again by stopping there."
-    return words

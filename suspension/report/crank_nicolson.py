@@ -145,25 +145,20 @@ def _factor(runs, exact):
     """Whether the error falls by the expected factor, at the end and over the whole run."""
     coarse, fine = (np.abs(run.W[2] - theta) for run, theta in zip(runs, exact))
     expected = 2 ** runs[0].scheme.order
-    at_end, overall = coarse[-1] / fine[-1], coarse.max() / fine.max()
-    end_fits, run_fits = (abs(x / expected - 1) <= AS_EXPECTED for x in (at_end, overall))
-    end = rf"at $t_\text{{final}}$ it falls by a factor of {fixed(at_end, 2)}"
-    run = f"the largest error of the whole run by {fixed(overall, 3)}"
-    promise = f"a method of second order promises {expected}"
+    overall = coarse.max() / fine.max()
+    run = (
+        f"the largest error of the whole run falls by a factor of {fixed(overall, 3)}, where a "
+        f"method of second order promises {expected}"
+    )
+    verdict = "Yes*" if abs(overall / expected - 1) <= AS_EXPECTED else "No*"
     if coarse[-1] < ROUNDOFF * coarse.max():
-        verdict = "Yes" if run_fits else "No"
-        return f"{verdict}*: {run}; {promise}. At the end the robot is at rest, and no error left."
-    if end_fits and run_fits:
-        return f"Yes*: {end}, {run}; {promise}."
-    if run_fits:
-        return (
-            f"Yes, over the whole run*: {run}, where {promise}. The one instant misleads: {end}, "
-            f"where the error happens to be only {percent(coarse[-1] / coarse.max())} of its "
-            "largest value."
-        )
-    if end_fits:
-        return f"Not over the whole run*: {end}, but {run}; {promise}."
-    return f"No*: {end} and {run}, where {promise}; the steps are too long for that."
+        return f"{verdict}: {run}. At the end the robot is at rest, and no error left."
+    at_end = coarse[-1] / fine[-1]
+    text = rf"{verdict}: {run}, and the error at $t_\text{{final}}$ by {fixed(at_end, 2)}."
+    if abs(at_end / expected - 1) > AS_EXPECTED:
+        part = percent(coarse[-1] / coarse.max())
+        text += f" The one instant misleads: there the error is {part} of its largest value."
+    return text
 
 
 def phase_error(robot, run, exact):

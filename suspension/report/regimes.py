@@ -152,19 +152,14 @@ def _further(times):
 
 def margin_caption(regimes, beyond, asked=()):
     """Caption of the least forces against speed."""
-    text = "The exact least force of each wheel against speed."
-    if regimes.lost.any():
-        text += " Where either is negative (marked *lost*) a wheel leaves the ground."
-    if len(regimes.critical):
-        one = len(regimes.critical) == 1
-        text += " Diamond: the critical speed." if one else " Diamonds: the critical speeds."
-    if len(asked):
-        text += f" {_circles(asked)}: the {count(len(asked), 'speed')} of the problem set."
-    if len(beyond):
-        text += (
-            r" Hatched: a spring is compressed beyond $\delta_{\max}$, the largest displacement at "
-            "which it was measured."
-        )
+    marks = [
+        ("shaded and marked *lost*: a wheel leaves the ground", regimes.lost.any()),
+        ("diamonds: critical speeds", len(regimes.critical)),
+        ("circles: speeds of the problem set", len(asked)),
+        (r"hatched: a spring is compressed further than measured, $\delta_{\max}$", len(beyond)),
+    ]
+    drawn = "; ".join(mark for mark, there in marks if there)
+    text = "The exact least force of each wheel against speed"
     alt = (
         "Least normal force of the rear and the front wheel against speed on a logarithmic axis. "
         f"Contact is {ranges(regimes)}."
@@ -172,11 +167,7 @@ def margin_caption(regimes, beyond, asked=()):
     where = beyond_words(regimes, beyond)
     if where:
         alt += f" Hatched {where}: there a spring is compressed further than it was measured."
-    return Caption(text, alt)
-
-
-def _circles(asked):
-    return "Circle" if len(asked) == 1 else "Circles"
+    return Caption(f"{text} ({drawn})." if drawn else f"{text}.", alt)
 
 
 def balance_table(critical, balances):
@@ -373,22 +364,16 @@ def map_caption(stiffness, k, asked, hatched):
         Whether there is a hatched region.
     """
     low, high = stiffness.interval()
-    text = (
+    beyond = r" Hatched: a spring is compressed beyond $\delta_{\max}$." if hatched else ""
+    return Caption(
         "The margin over speed and stiffness. On the black line the verdict turns. Dashed, with "
-        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; "
-        f"{_circles(asked).lower()}: the {count(len(asked), 'asked speed')}."
+        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; marked there: "
+        f"the {count(len(asked), 'asked speed')}.{beyond}",
+        f"Map of the margin over speed and stiffness, from {number(k[0])} to {number(k[-1])}{SPACE}"
+        "N/m: red where contact is lost, blue where it is kept, a black line between. A band marks "
+        f"{number(low)} to {number(high)}{SPACE}N/m around the fitted stiffness."
+        + (" A hatched region marks springs compressed further than measured." if hatched else ""),
     )
-    alt = (
-        f"Map of the margin over speed and stiffness, from {number(k[0])} to "
-        f"{number(k[-1])}{SPACE}N/m: "
-        "red where contact is lost, blue where it is kept, a black line between. A horizontal "
-        f"band marks {number(low)} to {number(high)}{SPACE}N/m around the fitted "
-        f"{number(stiffness.value)}{SPACE}N/m."
-    )
-    if hatched:
-        text += r" Hatched: a spring is compressed beyond $\delta_{\max}$."
-        alt += " A hatched region marks springs compressed further than measured."
-    return Caption(text, alt)
 
 
 def sensitivity_caption(critical):
@@ -407,18 +392,14 @@ def sensitivity_caption(critical):
 
 def travel_caption(regimes, beyond, delta_max):
     """Caption of the largest compression and pitch over the speeds looked at."""
-    text = (
-        "Largest compression of a spring (left) and largest pitch (right) while both wheels press "
-        "on the ground. Dashed: the largest displacement at which the spring was measured."
-    )
     where = beyond_words(regimes, beyond)
-    above = f"It lies above the line {where}." if where else "It stays below the line."
-    alt = (
+    return Caption(
+        "Largest compression of a spring (left) and largest pitch (right) while both wheels press "
+        "on the ground. Dashed: the largest displacement at which the spring was measured.",
         "Left: largest spring compression against speed with a dashed line at "
-        f"{fixed(1000 * delta_max, 1)}{SPACE}mm, the largest measured displacement. {above} Right: "
-        "largest pitch angle against speed."
+        f"{fixed(1000 * delta_max, 1)}{SPACE}mm, the largest measured displacement. It lies "
+        f"{f'above the line {where}' if where else 'below the line'}. Right: largest pitch.",
     )
-    return Caption(text, alt)
 
 
 def doubt(regimes, beyond, at_rest, delta_max, tilt):
@@ -465,21 +446,13 @@ def _up(x):
 
 def lesson(regimes, balances):
     """What the ranges teach, in one line; `balances` as in `balance_table`."""
-    if regimes.lost.tolist() == [False, True]:
-        return (
-            "With this spring the wheels do fly above some speed. That they do was not to be "
-            "known beforehand: resonance throws the body, a short bump spares it, a fast damper "
-            "pulls at it, and only the numbers tell what comes of the three."
-        )
     if not len(regimes.critical):
         return "With this spring one verdict holds at all speeds. Only the numbers could tell."
+    flies = "do fly" if regimes.lost.tolist() == [False, True] else "do not simply fly"
     words = (
-        "The wheels do not simply fly above some speed. Resonance throws the body, a short bump "
-        "spares it"
+        f"With this spring the wheels {flies} above some speed. Resonance throws the body, a short "
+        "bump spares it"
     )
     if any(balance.pulled for balance in balances):
-        return (
-            f"{words}, and the damper, meant to hold the robot down, is what pulls a wheel off the "
-            "ground at the highest speeds."
-        )
-    return f"{words}."
+        words += ", and the damper, meant to hold the robot down, pulls a wheel off the ground"
+    return f"{words}: only the numbers tell what comes of it."

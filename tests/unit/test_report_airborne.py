@@ -129,18 +129,10 @@ def test_the_models_agree_or_not_as_the_numbers_say():
     assert "not the same" in part.models(runs, cut | {v: runs[v] for v in (0.5, 5)}, robot)
 
 
-@pytest.mark.parametrize(
-    ("orders", "lost_and_found"),
-    [((1.1, 4.0), True), ((1.1, 3.0), False), ((3.9, 3.9), False)],
-)
-def test_the_orders_are_judged(orders, lost_and_found):
-    text = part.order_sentence(5, orders)
-    assert ("found again" in text) == lost_and_found and not faults(text)
-    assert not faults(part.order_caption(5, 0.139, orders).alt)
-
-
-def test_without_a_landing_there_is_no_order():
-    assert "no wheel lands" in plain(part.order_sentence(None, None))
+def test_the_orders_are_told():
+    caption = part.order_caption(5, 0.139, (1.1, 3.96))
+    assert "(observed order 1.1)" in caption.text and "(4.0)" in caption.text
+    assert not faults(caption.text) and not faults(caption.alt)
 
 
 def test_the_state_diagram_has_words_for_all_it_shows():

@@ -115,12 +115,12 @@ def test_captions_tables_and_doubts_are_sound(regimes, beyond, at_rest):
         assert text
 
 
-def test_one_is_told_as_one():
-    one, several = part.margin_caption(RISES, (), (5,)), part.margin_caption(WINDOW, (), (1, 5))
-    assert "Diamond: the critical speed. Circle: the one speed of" in plain(one.text)
-    assert "Diamonds: the critical speeds. Circles: the two speeds of" in plain(several.text)
-    stiffness, k = fitted(2300).slope, [460, 4370]
-    assert "circle: the one asked speed." in plain(part.map_caption(stiffness, k, [1.2], True).text)
+def test_the_caption_names_the_marks_that_are_drawn():
+    assert part.margin_caption(KEPT, ()).text.endswith("wheel against speed.")
+    one, all_of_them = part.margin_caption(RISES, ()), part.margin_caption(WINDOW, FAR, (1, 5))
+    assert "*lost*: a wheel leaves" in one.text and "diamonds" in one.text
+    assert "circles" not in one.text and "hatched" not in one.text
+    assert all(word in all_of_them.text for word in ("*lost*", "diamonds", "circles", "hatched"))
 
 
 def test_neighbouring_speeds_can_be_told_apart():
@@ -163,8 +163,8 @@ def test_the_damper_is_blamed_only_where_the_spring_still_pushes():
     thrown, pulled = balances(WINDOW)[:2]
     assert "the damper pulls" not in plain(part.balance_table([0.436], [thrown]))
     assert "the body is thrown" not in plain(part.balance_table([20.3], [pulled]))
-    assert "highest speeds" not in plain(part.lesson(WINDOW, [thrown] * 3))
-    assert "highest speeds" in plain(part.lesson(WINDOW, [thrown, thrown, pulled]))
+    assert "damper" not in plain(part.lesson(WINDOW, [thrown] * 3))
+    assert "damper" in plain(part.lesson(WINDOW, [thrown, thrown, pulled]))
 
 
 def test_what_dampers_twice_as_strong_do_is_told_of_the_robot_itself():
