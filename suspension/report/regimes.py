@@ -25,7 +25,6 @@ from suspension.report.words import (
     percent,
     quantity,
     ranges,
-    small_angle,
     speed_list,
 )
 
@@ -402,13 +401,11 @@ def travel_caption(regimes, beyond, delta_max):
     )
 
 
-def doubt(regimes, beyond, at_rest, delta_max, tilt):
+def doubt(regimes, beyond, delta_max, tilt):
     """Where the verdicts rest on a spring that was never measured, and how far the body tilts.
 
     Parameters
     ----------
-    at_rest : float
-        Compression of the springs at rest over `delta_max`.
     delta_max : float
         Largest displacement at which the spring was measured, m.
     tilt : float
@@ -416,27 +413,19 @@ def doubt(regimes, beyond, at_rest, delta_max, tilt):
     """
     limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
     where = beyond_words(regimes, beyond)
-    words = []
-    if at_rest > 1:
-        words.append(
-            f"**Even at rest** the robot compresses its springs to {fixed(at_rest, 2)} times "
-            f"{limit}: it is too heavy for this spring as far as it was measured, and every "
-            "number about the drive is an extrapolation."
-        )
-    elif where:
-        words.append(
+    spring = f"No spring is compressed beyond {limit}, as far as it was measured."
+    if where:
+        spring = (
             f"While both wheels still press, a spring is compressed beyond {limit} {where}. "
             "There the verdicts are those of a spring that stays linear further than anyone has "
             "measured."
         )
-    else:
-        words.append(f"No spring is compressed beyond {limit}, as far as it was measured.")
-    words.append(
-        f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
-        f"where {small_angle(tilt)}; "
-        "[in the air](../notebooks/07-flight.ipynb) it is another matter."
+    sine, cosine = percent(1 - np.sinc(tilt / np.pi)), percent(1 - np.cos(tilt))
+    return (
+        f"{spring} As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} "
+        rf"degrees, where $\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by "
+        f"{cosine}; [in the air](../notebooks/07-flight.ipynb) it is another matter."
     )
-    return " ".join(words)
 
 
 def _up(x):

@@ -42,18 +42,14 @@ READINGS = ("state (relative)", "normal force (N)", "time of loss (s)")
 def heave_caption(heave, bump):
     """Caption of the exact heave; `heave` is a dict of speed, m/s, to rise above rest, m."""
     rises = join(f"{fixed(1000 * max(y), 1)}{SPACE}mm at {v:g}{SPACE}m/s" for v, y in heave.items())
-    text = (
-        "The exact height of the centre of mass above its rest, against position. It rises by at "
-        f"most {rises}; the bump is {fixed(1000 * bump.height, 1)}{SPACE}mm high. A body that "
-        "follows "
-        "the ground climbs it twice, half the height each time; one that is thrown swings on; one "
-        "that is too fast has hardly begun to move when the bump is behind it."
-    )
-    alt = (
+    return Caption(
+        "The exact height of the centre of mass above its rest, against position. A body that "
+        f"follows the ground climbs the bump, {fixed(1000 * bump.height, 1)}{SPACE}mm high, twice, "
+        "half of it each time; one that is thrown swings on; one that is too fast has hardly begun "
+        "to move when the bump is behind it.",
         "Height of the centre of mass relative to rest against position, one curve for each of "
-        f"{count(len(heave), 'speed')}. The largest rises are {rises}."
+        f"{count(len(heave), 'speed')}. It rises by at most {rises}.",
     )
-    return Caption(text, alt)
 
 
 def sampled_caption(speeds, sampled):
@@ -102,23 +98,15 @@ def convergence_caption(worst, v):
         Speed, m/s.
     """
     shown = _shown(worst)
-    names = {
-        0: "the state (each component relative to its largest value)",
-        1: "the normal forces",
-        2: "the time at which contact is lost",
-    }
-    panels = join(names[j] for j in shown)
+    readings = join(READINGS[j] for j in shown)
     kept = "" if 2 in shown else " Contact is kept at this speed: there is no time of a loss."
-    text = (
-        f"Largest error over the run at $v$ = {v:g}{SPACE}m/s against the time step, for "
-        f"{panels}.{kept}"
-    )
     falls = join(f"with slope about {number(_order(e[:, 0]), 2)} for {s}" for s, e in worst.items())
-    alt = (
+    return Caption(
+        f"Largest error over the run at $v$ = {v:g}{SPACE}m/s against the time step: {readings}, "
+        f"the state relative to the largest value of each component.{kept}",
         f"{count(len(shown), 'panel').capitalize()} of error against time step on logarithmic "
-        f"axes, for {panels}. Over the longest steps the error of the state falls {falls}."
+        f"axes: {readings}. Over the longest steps the error of the state falls {falls}.",
     )
-    return Caption(text, alt)
 
 
 def panels(worst):
