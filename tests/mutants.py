@@ -3,7 +3,8 @@
     python tests/mutants.py [MODULE ...] [--sample N] [--jobs N]
 
 A mutant is a module with one operator, comparison, number or condition changed. It is killed if a
-test of that module fails or takes far too long; the survivors are printed, each with its line.
+test of that module, or of bad input, fails or takes far too long: quick tests come first, and only
+who survives them meets the slow ones. The survivors are printed, each with its line.
 The files are left alone: the mutant is compiled from a changed syntax tree, in a process of its
 own, and handed to whoever imports the module. (Libraries do not fit: mutmut skips decorated
 functions, which all matrices of a robot are; cosmic-ray writes into the tree and starts Python for
@@ -93,6 +94,8 @@ EQUIVALENT = [
     ("least_force", "2 + int(swings)", "2", DENSITY),
     ("least_force", "2 + int(7 *", "2", DENSITY),
     ("least_force", "np.arange(-66, 133)", "30", DENSITY),
+    ("contact", "ends = {t[j - 1]", "1", "the force is positive at every earlier sample as well"),
+    ("contact", "return ends[s] if", "", "only the sign of a roundoff may be another one"),
     ("critical", "ripples = 1 +", "1", DENSITY),
     ("critical", "count = (20 +", "", "where samples are few, a bound of the slope asks for more"),
 ]
@@ -174,8 +177,8 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         exec(self.code, module.__dict__)
 
 
-def survives(mutant, mark, seconds):
-    """Whether the module's tests so marked pass in a child process, within that time."""
+def survives(mutant, tests, seconds):
+    """Whether tests pass in a child process, within that time; so they do where there are none."""
     child = os.fork()
     if not child:
         with contextlib.suppress(BaseException):
@@ -183,7 +186,7 @@ def survives(mutant, mark, seconds):
             silence = os.open(os.devnull, os.O_WRONLY)
             os.dup2(silence, 1)
             os.dup2(silence, 2)
-            os._exit(run_tests(mutant, mark))
+            os._exit(run_tests(mutant, tests))
         os._exit(1)
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -197,31 +200,37 @@ def survives(mutant, mark, seconds):
     return False
 
 
-def run_tests(mutant, mark):
-    """pytest's exit code for the tests, and the examples, of a module."""
+def run_tests(mutant, tests):
+    """pytest's exit code."""
     import pytest
 
     plugins = [Changed(mutant)] if mutant.tree else []
-    names = [mutant.module, *MORE_TESTS.get(mutant.module, ())]
-    tests = [f"suspension/{mutant.module}.py", *(f"tests/unit/test_{name}.py" for name in names)]
     plain = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:nbval", "-p", "no:randomly"]
     return pytest.main(
-        [*plain, "-m", mark, "-o", "addopts=--doctest-modules --import-mode=importlib", *tests],
-        plugins,
+        [*plain, "-o", "addopts=--doctest-modules --import-mode=importlib", *tests], plugins
     )
+
+
+def stages(module):
+    """What is run, one after the other, of those that survive: most fall at once."""
+    names = [module, *MORE_TESTS.get(module, ())]
+    own = [f"suspension/{module}.py", *(f"tests/unit/test_{name}.py" for name in names)]
+    yield ["-m", "not slow", *own]
+    yield ["tests/unit/test_bad_input.py"]
+    yield ["-m", "slow", *own]
 
 
 def examine(module, sample, jobs):
     """Run a module's mutants, print the survivors; return how many there were of each."""
     begin = time.monotonic()
     found = alive = sorted(mutants(module, sample), key=lambda mutant: mutant.line)
-    for mark in ("not slow", "slow"):  # most do not survive the quick ones
+    for tests in stages(module):
         start = time.monotonic()
-        if not survives(Mutant(module, 0, "", "", "", None), mark, 600):
+        if not survives(Mutant(module, 0, "", "", "", None), tests, 600):
             sys.exit(f"{module}: its tests fail as it is")
         usual = time.monotonic() - start
-        print(f"{module}: {len(alive)} mutants, tests {mark} take {usual:.1f} s", flush=True)
-        check = partial(survives, mark=mark, seconds=5 + SLOWEST * jobs * usual)
+        print(f"{module}: {len(alive)} mutants, tests take {usual:.1f} s", flush=True)
+        check = partial(survives, tests=tests, seconds=5 + SLOWEST * jobs * usual)
         with ThreadPoolExecutor(jobs) as pool:
             lives = list(pool.map(check, alive))
         alive = [mutant for mutant, lives in zip(alive, lives, strict=True) if lives]
