@@ -22,7 +22,7 @@ from suspension.explorer import page_script, page_style
 
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
-BOX = "suspension-explorer-box"
+BOX = re.compile("suspension-(explorer-box|prediction)")
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
@@ -45,7 +45,7 @@ def add_files(app, page, template, context, doctree):
     if doctree is None:
         return
     NbMetadataCollector.get_js_files(app.env, page).clear()
-    if any(BOX in node.astext() for node in doctree.findall(nodes.raw)):
+    if any(BOX.search(node.astext()) for node in doctree.findall(nodes.raw)):
         app.add_js_file("explorer.js", loading_method="defer")
         app.add_css_file("explorer.css")
 
@@ -60,7 +60,7 @@ def keep_pages(app, page, source):
             shown = [out for out in cell["outputs"] if WIDGET not in out.get("data", {})]
             for data in (out.get("data", {}) for out in shown):
                 html = "".join(data.get("text/html", ""))
-                if BOX in html:
+                if BOX.search(html):
                     data.pop("image/svg+xml", None)
                     data["text/html"] = FOR_NOTEBOOKS.sub("", html)
             cell["outputs"] = shown

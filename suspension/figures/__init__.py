@@ -33,7 +33,13 @@ from suspension.figures.regression import (
 )
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
-from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
+from suspension.figures.similarity import (
+    plot_chart,
+    plot_comb,
+    plot_empty,
+    plot_vehicles,
+    plot_window,
+)
 from suspension.figures.speeds import (
     plot_margin,
     plot_margin_map,
@@ -53,6 +59,7 @@ __all__ = [
     "plot_confidence_region",
     "plot_contact_states",
     "plot_demand_map",
+    "plot_empty",
     "plot_energy",
     "plot_errors",
     "plot_experiments",
