@@ -12,7 +12,7 @@ from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
-from suspension.explorer.still import RUN_NOTEBOOK, still_image, svg
+from suspension.explorer.still import RUN_NOTEBOOK, picture, still_image, svg
 from suspension.figures import plot_empty
 
 __all__ = ["Prediction"]
@@ -100,32 +100,40 @@ class Prediction(anywidget.AnyWidget):
         return answered
 
     def _ipython_display_(self):
-        html = {"text/html": self._html(RUN_NOTEBOOK.replace("drive it", "draw on it"))}
-        display(html, raw=True)
+        drawn = self._draw()
+        below = RUN_NOTEBOOK.replace("drive it", "draw on it")
+        page = {"text/html": self._html(drawn, below)}
+        if drawn:  # a page has the first, a notebook that was not run the second
+            page["image/svg+xml"] = picture(drawn, "draw on it")
+        display(page, raw=True)
         # Nothing as HTML: a page, or a notebook that is not trusted, has the first display.
-        display(super()._repr_mimebundle_() | {"text/html": ""}, raw=True)
+        widget, metadata = super()._repr_mimebundle_()
+        display(widget | {"text/html": ""}, raw=True, metadata=metadata)
 
     def html(self):
         """The prediction as HTML; `page_script` brings it to life."""
-        return self._html()
+        return self._html(self._draw())
 
-    def _html(self, below=""):
+    def _html(self, drawn, below=""):
         state = {"name": self.name, "facts": self.facts}
         text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
-        is_answer = "answer" in self.facts
-        picture = "" if is_answer else self._still() + below
+        x_name, y_name = self.facts["names"]
+        alt = f"Empty logarithmic axes: {y_name} against {x_name}."
+        still = still_image(drawn, alt) + below if drawn else ""
         return (
-            f'<div class="suspension-prediction se-{"answered" if is_answer else "asked"}">'
-            f'<div class="se-place">{picture}</div>'
+            f'<div class="suspension-prediction se-{"asked" if drawn else "answered"}">'
+            f'<div class="se-place">{still}</div>'
             f'<script type="application/json" class="se-state">{text}</script></div>'
         )
 
-    def _still(self):
+    def _draw(self):
+        """Empty axes as SVG; nothing of an answer, which stands beside a figure."""
+        if "answer" in self.facts:
+            return ""
         with plt.style.context("suspension.figures.report"):
             figure, ax = plt.subplots(figsize=(7.2, 3.8))
             plot_empty(self.facts["x"], self.facts["y"], self.facts["names"], ax)
-        x_name, y_name = self.facts["names"]
-        return still_image(svg(figure), f"Empty logarithmic axes: {y_name} against {x_name}.")
+        return svg(figure)
 
 
 def _line(name, x, values, ends, truth, seen):

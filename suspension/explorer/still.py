@@ -32,10 +32,10 @@ NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
 FAR = 4  # times the usual way
-RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
+RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to {}."
 # What a notebook says below it, and hides if it has no kernel: that there is no widget.
 RUN_NOTEBOOK = (
-    f'<p class="se-run"><strong>{RUN}</strong></p>'
+    f'<p class="se-run"><strong>{RUN.format("drive it")}</strong></p>'
     "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + .jp-OutputArea-child > "
     ".jupyter-widgets:not(:has(*)) { display: none; }</style>"
 )
@@ -62,12 +62,12 @@ def still_image(drawn, text):
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 
-def picture(drawn):
+def picture(drawn, to="drive it"):
     """What was drawn, with what to do to drive it written below."""
     width, height = map(float, SIZE.search(drawn).groups())
     words = (
         f'<text x="{width / 2:g}" y="{height + 15:g}" text-anchor="middle" '
-        f'font-family="sans-serif" font-size="12" font-weight="bold">{RUN}</text>'
+        f'font-family="sans-serif" font-size="12" font-weight="bold">{RUN.format(to)}</text>'
     )
     svg = drawn.replace(
         f'viewBox="0 0 {width:g} {height:g}"', f'viewBox="0 0 {width:g} {height + 24:g}"'

@@ -32,10 +32,10 @@ def test_axe_finds_no_violation(browser, site, page):
     assert not found + found_dark, "\n".join(found + found_dark)
 
 
-def violations(tab, *rules):
+def violations(tab, *rules, within="html"):
     """What axe objects to, by some of its rules or by all; and how many rules found nothing."""
     options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
-    result = tab.evaluate("options => axe.run(document, options)", options)
+    result = tab.evaluate("([within, options]) => axe.run(within, options)", [within, options])
     found = [
         f"{violation['id']}: {violation['help']}: {node['target']} {node['failureSummary']}"
         for violation in result["violations"]
