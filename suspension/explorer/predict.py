@@ -64,7 +64,7 @@ class Prediction(anywidget.AnyWidget):
         x : ndarray, shape (n,)
             In order, > 0.
         lines : dict of str to ndarray, shape (n,)
-            By name, powers of x: straight lines on these axes.
+            By name, powers of x: straight lines on these axes. One that is inf is left out.
         exact : ndarray, shape (n,)
             The curve, > 0; inf where there is no height.
         curve : str
@@ -87,7 +87,9 @@ class Prediction(anywidget.AnyWidget):
         truth = heights(exact)
         seen = (low <= truth) & (truth <= high)
         told = [
-            _line(name, np.log10(x), values, ends, truth, seen) for name, values in lines.items()
+            _line(name, np.log10(x), values, ends, truth, seen)
+            for name, values in lines.items()
+            if np.isfinite(values).all()  # no damper, no limit that one makes
         ]
         answered = Prediction(
             self.name,

@@ -254,3 +254,21 @@ def test_forced_colours_leave_everything_to_be_seen(visit):
         for name in ("the exact curve", "follow")
     )
     assert pressed != other
+
+
+def test_a_choice_that_is_tapped_stays_beside_the_answer(visit, browser, site):
+    tab = visit()
+    choices = tab.locator("ul.choices button")
+    answer = tab.locator("ul.choices + details")
+    assert choices.count() == 3 and answer.get_attribute("open") is None
+    for nth in (0, 2):
+        choices.nth(nth).click()
+        pressed = [choices.nth(i).get_attribute("aria-pressed") for i in range(3)]
+        assert pressed == ["true" if i == nth else "false" for i in range(3)]
+        assert answer.get_attribute("open") is not None
+    assert choices.nth(2).is_visible()
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    tab.goto(f"{site}{PAGE}")
+    assert tab.locator("ul.choices li").count() == 3 and not tab.locator("ul.choices button").count()
+    context.close()
