@@ -4,8 +4,8 @@ A heading that begins with Solution, Proof or Answer opens a section that the pa
 JupyterLab the same heading is collapsed by its cell's ``jp-MarkdownHeadingCollapsed``, so that one
 plain heading serves both, with code cells and figures below it.
 
-A list between a paragraph that begins with **Predict.** and the fold of its answer are choices: the page's
-script makes them buttons, of which the one that is tapped stays marked and opens the answer.
+A list between a paragraph that begins with **Predict.** and the fold of its answer are choices: the
+page's script makes them buttons, of which the one that is tapped stays marked and opens the answer.
 """
 
 from docutils import nodes

@@ -41,6 +41,7 @@ __all__ = [
     "explore",
     "page_script",
     "page_style",
+    "prediction_script",
 ]
 
 PAGE = Path(__file__).parent / "page"
@@ -290,8 +291,13 @@ def page_script():
     return f"(() => {{\n{bundle(PAGE, 'page')}}})();\n"
 
 
+def prediction_script():
+    """The script, a classic one, that brings every prediction of a page to life."""
+    return f"(() => {{\n{bundle(PAGE, 'predict_page')}}})();\n"
+
+
 def page_style():
-    """The style sheet of a page with explorers."""
+    """The style sheet of a page with explorers or predictions."""
     return Explorer._css
 
 

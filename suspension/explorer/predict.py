@@ -13,7 +13,7 @@ from IPython.display import display
 from suspension import _checks
 from suspension.explorer.bundle import bundle
 from suspension.explorer.still import RUN_NOTEBOOK, picture, still_image, svg
-from suspension.figures import plot_empty
+from suspension.figures.similarity import empty_axes
 
 __all__ = ["Prediction"]
 
@@ -134,7 +134,7 @@ class Prediction(anywidget.AnyWidget):
             return ""
         with plt.style.context("suspension.figures.report"):
             figure, ax = plt.subplots(figsize=(7.2, 3.8))
-            plot_empty(self.facts["x"], self.facts["y"], self.facts["names"], ax)
+            empty_axes(self.facts["x"], self.facts["y"], self.facts["names"], ax)
         return svg(figure)
 
 

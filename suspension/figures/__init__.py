@@ -36,7 +36,6 @@ from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
 from suspension.figures.similarity import (
     plot_chart,
     plot_comb,
-    plot_empty,
     plot_vehicles,
     plot_window,
 )
@@ -59,7 +58,6 @@ __all__ = [
     "plot_confidence_region",
     "plot_contact_states",
     "plot_demand_map",
-    "plot_empty",
     "plot_energy",
     "plot_errors",
     "plot_experiments",

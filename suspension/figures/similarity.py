@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from suspension.figures.style import COLOURS, LINES, axes_or_new
 
-__all__ = ["plot_chart", "plot_comb", "plot_empty", "plot_vehicles", "plot_window"]
+__all__ = ["empty_axes", "plot_chart", "plot_comb", "plot_vehicles", "plot_window"]
 
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
@@ -114,7 +114,7 @@ def _bump_across(ax, eta, asked, lost, critical, kept):
     ax.legend(loc="lower left", bbox_to_anchor=(0.02, 0.1), frameon=True, edgecolor="none")
 
 
-def plot_empty(x, y, names, ax=None):
+def empty_axes(x, y, names, ax=None):
     """Empty logarithmic axes, with a grid, to draw on.
 
     Parameters

@@ -19,7 +19,6 @@ from suspension.figures import (
     plot_comb,
     plot_confidence_region,
     plot_demand_map,
-    plot_empty,
     plot_energy,
     plot_errors,
     plot_experiments,
@@ -115,7 +114,6 @@ ON_ONE = {
         NU, CHART, {"skim": 9 / NU}, (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]), 0.03, ax=ax
     ),
     "plot_comb": lambda ax: plot_comb(NU, NU, NU / 2, 2 * NU, 1.1 * NU, ax),
-    "plot_empty": lambda ax: plot_empty((0.05, 100), (0.1, 100), ["speed", "height"], ax),
     "plot_vehicles": lambda ax: plot_vehicles(NU, CHART, PATHS, ax=ax),
     "plot_window": lambda ax: plot_window(
         ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax

@@ -2,30 +2,11 @@
 // address and the phrases in the text set their pictures.
 
 import { linkOf, PREFIX } from "./phrases.js";
-import { renderPrediction } from "./predict.js";
 import { readHash, writeHash } from "./state.js";
+import { makeModel } from "./values.js";
 import { render } from "./view.js";
 
 const PAUSE = 400; // ms after the last change, until the address says it
-
-/** What anywidget gives a view in JupyterLab: a model with get, set, on, off and save_changes. */
-function makeModel(values) {
-  const listeners = new Map();
-  return {
-    get: (name) => values[name],
-    set(name, value) {
-      if (Object.is(values[name], value)) return;
-      values[name] = value;
-      for (const listener of [...(listeners.get(`change:${name}`) ?? [])]) listener();
-    },
-    on(event, listener) {
-      if (!listeners.has(event)) listeners.set(event, new Set());
-      listeners.get(event).add(listener);
-    },
-    off: (event, listener) => listeners.get(event)?.delete(listener),
-    save_changes() {},
-  };
-}
 
 const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
 
@@ -37,38 +18,7 @@ function start(box) {
   return view;
 }
 
-/** The predictions of the page; all views of one have the same strokes, and so has the next visit. */
-function startPredictions() {
-  const together = new Map();
-  for (const box of document.querySelectorAll(".suspension-prediction")) {
-    const values = JSON.parse(box.querySelector(".se-state").textContent),
-      key = `suspension-prediction ${location.pathname} ${values.name}`;
-    const model = makeModel({ strokes: recall(key), ...values });
-    const all = together.get(key) ?? together.set(key, []).get(key);
-    all.push(model);
-    model.on("change:strokes", () => {
-      for (const other of all) other.set("strokes", model.get("strokes"));
-      try {
-        localStorage.setItem(key, JSON.stringify(model.get("strokes")));
-      } catch {} // no room, or not allowed: then it is forgotten
-    });
-    renderPrediction(model, box.querySelector(".se-place"));
-    box.classList.add("se-live");
-  }
-}
-
-/** The strokes of the last visit, if they can be read. */
-function recall(key) {
-  try {
-    const strokes = JSON.parse(localStorage.getItem(key)) ?? [];
-    return strokes.every((stroke) => stroke.flat().every(Number.isFinite)) ? strokes : [];
-  } catch {
-    return [];
-  }
-}
-
 function begin() {
-  startPredictions();
   const explorers = [...document.querySelectorAll(".suspension-explorer-box.se-page")].map(start);
   if (!explorers.length) return;
   let timer = 0,
