@@ -1,9 +1,8 @@
 """axe-core finds nothing to object to on any page, in the light or in the dark."""
 
 import pytest
-from helpers import PAGES, ROOT
+from helpers import AXE, PAGES, violations
 
-AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 ALL_EXPLORERS_SPEAK = """
 [...document.querySelectorAll(".suspension-explorer-box")]
     .every(box => box.querySelector(".se-headline")?.innerText)
@@ -30,15 +29,3 @@ def test_axe_finds_no_violation(browser, site, page):
     tab.close()
     assert passed == 1
     assert not found + found_dark, "\n".join(found + found_dark)
-
-
-def violations(tab, *rules, within="html"):
-    """What axe objects to, by some of its rules or by all; and how many rules found nothing."""
-    options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
-    result = tab.evaluate("([within, options]) => axe.run(within, options)", [within, options])
-    found = [
-        f"{violation['id']}: {violation['help']}: {node['target']} {node['failureSummary']}"
-        for violation in result["violations"]
-        for node in violation["nodes"]
-    ]
-    return found, len(result["passes"])

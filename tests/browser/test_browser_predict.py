@@ -3,11 +3,12 @@
 import re
 from itertools import pairwise
 
+import nbformat
 import pytest
-from helpers import ROOT
-from test_accessibility import violations
+from helpers import AXE, violations
+from lab import run_all, serve
+from nbformat.v4 import new_code_cell, new_notebook
 
-AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 PAGE = "notebooks/04-one-chart.html"
 ASKED, ANSWERED = ".suspension-prediction.se-asked", ".suspension-prediction.se-answered"
 BOTH = ".suspension-prediction"
@@ -273,3 +274,40 @@ def test_a_choice_that_is_tapped_stays_beside_the_answer(visit, browser, site):
     assert tab.locator("ul.choices li").count() == 3
     assert not tab.locator("ul.choices button").count()
     context.close()
+
+
+LAB_CELLS = [
+    """import numpy as np
+
+from suspension.explorer import Prediction
+
+x = np.geomspace(0.05, 100, 50)
+asked = Prediction("w", (0.05, 100), (0.1, 100), "speed ν", "height η")
+asked""",
+    """lines = {"throw": 0.4 * x, "skim": 100 / x}
+asked.answer(x, lines, np.minimum(0.4 * x, 100 / x))""",
+]
+
+
+@pytest.mark.slow
+def test_the_same_prediction_is_alive_in_jupyterlab(browser, tmp_path):
+    notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    notebook.metadata.kernelspec = kernel
+    nbformat.write(notebook, tmp_path / "predict.ipynb")
+    tab = browser.new_page(viewport={"width": 1300, "height": 1200})
+    errors = []
+    tab.on("pageerror", lambda error: errors.append(str(error)))
+    with serve(tmp_path) as address:
+        run_all(tab, address, "predict.ipynb", f"{ASKED}.se-live")
+        assert not tab.locator(f"{ASKED} img").is_visible()
+        assert not tab.locator(f"{ANSWERED}.se-live").is_visible()
+        draw(tab, W)
+        assert words(tab).startswith("Your curve falls, rises and falls.")
+        before = picture(tab, f"{ANSWERED}.se-live")
+        button(tab, "the exact curve", f"{ANSWERED}.se-live").click()
+        told = words(tab, f"{ANSWERED}.se-live")
+        assert "the exact curve rises and falls. Yours falls, rises and falls." in told
+        assert picture(tab, f"{ANSWERED}.se-live") != before
+    tab.close()
+    assert not errors
