@@ -51,6 +51,7 @@ def places(tab, points):
 
 def draw(tab, points):
     """Draw by mouse."""
+    tab.locator(f"{ASKED} .se-pad").scroll_into_view_if_needed()
     first, *others = places(tab, points)
     tab.mouse.move(*first)
     tab.mouse.down()
