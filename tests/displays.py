@@ -2,7 +2,8 @@
 
 ``python tests/displays.py FOLDER NOTEBOOK ...`` takes the data in FOLDER for the book's and writes
 FOLDER/NOTEBOOK.json for each notebook: by a cell's id, the outputs it displays. A word on stderr, a
-warning say, is an error, as it is when the book is built. There is neither a kernel nor a page.
+warning say, is an error, as it is when the book is built. There is neither a kernel nor a page, and
+figures are drawn and laid out, but not written: that takes longer than most of what is computed.
 
 FOLDER/robot.json, if it is there, says what else the robot has than the problem's.
 """
@@ -21,6 +22,7 @@ from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
 from suspension import _readings, course
+from suspension.report import show
 
 FOR_A_KERNEL = "%config InlineBackend"  # how it sends figures
 
@@ -65,11 +67,18 @@ def run_apart(folder, paths, **environment):
     }
 
 
+def lay_out(figure):
+    """All that is done for a picture of a figure but its text."""
+    figure.draw_without_rendering()
+    return ""
+
+
 def main(folder, *paths):
     """Run the notebooks, one after the other."""
     matplotlib.use("agg")
     warnings.simplefilter("default")
     _readings.FOLDERS = (Path(folder),)
+    show.svg = lay_out
     other = Path(folder, "robot.json")
     if other.exists():
         robot = replace(course.the_robot(), **json.loads(other.read_text(encoding="utf-8")))
