@@ -32,7 +32,12 @@ from suspension.figures.regression import (
 )
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
-from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
+from suspension.figures.similarity import (
+    plot_chart,
+    plot_comb,
+    plot_vehicles,
+    plot_window,
+)
 from suspension.figures.speeds import (
     plot_margin,
     plot_margin_map,
