@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from suspension.figures.style import COLOURS, LINES, axes_or_new
 
-__all__ = ["plot_chart", "plot_comb", "plot_paths", "plot_vehicles", "plot_window"]
+__all__ = ["empty_axes", "plot_chart", "plot_comb", "plot_paths", "plot_vehicles", "plot_window"]
 
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
@@ -112,6 +112,22 @@ def _bump_across(ax, eta, asked, lost, critical, kept):
     if len(critical):
         ax.plot([], [], "D", color="k", ms=5, label="critical speed")
     ax.legend(loc="lower left", bbox_to_anchor=(0.02, 0.1), frameon=True, edgecolor="none")
+
+
+def empty_axes(x, y, names, ax=None):
+    """Empty logarithmic axes, with a grid, to draw on.
+
+    Parameters
+    ----------
+    x, y : pair of float
+        Their ends.
+    names : (str, str)
+        What they count.
+    """
+    ax = _chart_axes(axes_or_new(ax), x, y)
+    ax.set(xlabel=names[0], ylabel=names[1])
+    ax.grid(color="0.85", lw=0.6)
+    return ax
 
 
 def plot_comb(nu, exact, comb, alone, throw, ax=None):
