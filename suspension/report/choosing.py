@@ -66,7 +66,7 @@ def beaten(robot, better):
     """
     present = f"The present suspension, {_named(robot.k1, robot.c1)},"
     if not len(better):
-        return f"**None.** {present} is on the front: no other is better in all three."
+        return f"**No other.** {present} is on the front: none of the map is better in all three."
     return (
         f"**{count(len(better), 'suspension').capitalize()}.** {present} is not on the front: "
         f"{_named(*better[0])}, for example, are better in all three."

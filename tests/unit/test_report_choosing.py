@@ -80,7 +80,7 @@ def test_the_farthest_springs_and_dampers():
 @pytest.mark.parametrize(
     ("better", "words"),
     [
-        ([], "**None.** The present suspension, 793 N/m and 1.50 N s/m, is on the front"),
+        ([], "**No other.** The present suspension, 793 N/m and 1.50 N s/m, is on the front"),
         (
             [(700, 2.4)],
             "**One suspension.** The present suspension, 793 N/m and 1.50 N s/m, is not on",
