@@ -12,6 +12,7 @@ from suspension.report.words import (
     fixed,
     join,
     number,
+    percent,
     quantity,
     small_angle,
     speed_list,
@@ -23,10 +24,11 @@ __all__ = [
     "first_flights",
     "flight_caption",
     "flight_table",
+    "geometry_sentence",
+    "geometry_table",
     "models",
     "order_caption",
     "order_sentence",
-    "tilt",
     "who_flies",
 ]
 
@@ -148,33 +150,49 @@ def _hardness(flights):
     return words
 
 
-def tilt(flights, pressing):
-    """How far the body tilts in the air, beside the tilt while both wheels press.
+def geometry_table(asked, small, full):
+    """The asked runs with a small pitch and with the full geometry, in both of which wheels fly.
 
     Parameters
     ----------
-    flights : dict of float to Flight
-        For each speed, m/s.
-    pressing : dict of float to float
-        Largest pitch until the first loss of contact, rad.
+    asked : sequence of float
+        Speeds, m/s.
+    small, full : suspension.sweep.Drive
+        On a ground that only pushes.
     """
-    angles = {v: np.abs(flight.W[2]).max() for v, flight in flights.items()}
-    v = max(angles, key=angles.get)
-    differ = small_angle(angles[v])
-    degrees = f"{fixed(np.degrees(angles[v]), 1)} degrees at {speed_list([v])}"
-    if not flights[v].events:
-        return (
-            f"The largest pitch of these runs is {degrees}, with both wheels on the ground; "
-            f"{differ} there."
-        )
-    if angles[v] < 1.05 * pressing[v]:
-        return f"The pitch reaches {degrees}, no more than while both wheels press; {differ} there."
-    return (
-        f"In the air the body tilts further than before: the pitch reaches {degrees}, where it had "
-        f"been {fixed(np.degrees(pressing[v]), 1)} degrees at most until the first lift-off. "
-        f"There {differ}, and the small-angle equations begin to be an approximation that one can "
-        "see."
+    return table(
+        [
+            {
+                "v (m/s)": f"{v:g}",
+                "pitch taken": name,
+                "contact lost at X (m)": "–" if run.kept[i] else fixed(run.lost[i], 4),
+                "largest pitch (degrees)": fixed(np.degrees(run.pitch[i]), 1),
+                "in the air: rear, front (ms)": ", ".join(
+                    fixed(1000 * t, 1) for t in run.airtime[:, i]
+                ),
+                "largest acceleration (m/s²)": number(run.acceleration[i]),
+            }
+            for i, v in enumerate(asked)
+            for name, run in (("for small", small), ("as it is", full))
+        ]
     )
+
+
+def geometry_sentence(asked, small, full):
+    """What the full geometry changes; arguments as in `geometry_table`."""
+    turned = np.extract(small.kept != full.kept, asked)
+    verdict = f"The verdict turns at {speed_list(turned)}." if turned.size else "No verdict turns."
+    i = int(np.argmax(full.pitch))
+    felt = abs(full.acceleration[i] / small.acceleration[i] - 1)
+    return (
+        f"{verdict} The pitch is largest at {speed_list([asked[i]])}, {_degrees(full.pitch[i])}, "
+        f"where {small_angle(full.pitch[i])}; the largest acceleration is wrong by "
+        f"{percent(felt)} there."
+    )
+
+
+def _degrees(angle):
+    return f"{fixed(np.degrees(angle), 1)} degrees"
 
 
 def models(flights, relaxed, robot):

@@ -11,7 +11,8 @@ from suspension.report import airborne as part
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
-from suspension.travel import Moment, moments, travel
+from suspension.sweep import drive
+from suspension.travel import Moment, moments
 
 BUMP = GaussianBump()
 ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
@@ -37,14 +38,15 @@ def flights(name, wheel="follows"):
 def test_sentences_about_flights_are_sound(name):
     robot, runs = ROBOTS[name], flights(name)
     linear = {v: simulate(robot, BUMP, v=v, dt=1e-3, tfinal=1) for v in SPEEDS}
-    pressing = {v: travel(robot, BUMP, v).pitch for v in SPEEDS}
+    ways = [drive(robot, BUMP, SPEEDS, geometry=geometry) for geometry in ("small", "full")]
     told = moments(runs[1.2], robot, BUMP)
     times = [moment.t for moment in told]
     assert times == sorted(times) and len(told) >= 3
     texts = [
         part.flight_table(runs.values(), robot),
+        part.geometry_table(SPEEDS, *ways),
+        part.geometry_sentence(SPEEDS, *ways),
         part.who_flies(runs, linear),
-        part.tilt(runs, pressing),
         part.models(runs, flights(name, "relaxes"), robot),
         *part.flight_caption(list(runs.values())),
         *part.film_caption(1.2, told),
@@ -134,12 +136,18 @@ def test_the_models_agree_or_not_as_the_numbers_say():
 
 
 @pytest.mark.slow
-def test_the_pitch_in_the_air_is_compared_with_the_pitch_before():
+def test_the_small_angle_is_compared_with_runs_that_fly_in_the_full_geometry():
     robot = ROBOTS["k = 793"]
-    run = {1.2: flights("k = 793")[1.2]}
-    text = part.tilt(run, {1.2: travel(robot, BUMP, 1.2).pitch})
-    assert "17.8 degrees" in plain(text) and "7.9 degrees at most until" in plain(text)
-    assert "no more than" in plain(part.tilt(run, {1.2: np.radians(17.8)}))
+    small, full = (drive(robot, BUMP, [0.25, 1.2], geometry=g) for g in ("small", "full"))
+    rows = plain(part.geometry_table([0.25, 1.2], small, full)).splitlines()
+    assert rows[4].startswith("| 1.2 | for small | 0.2123 | 17.8 | 362.3, 454.5 | 14.1 |")
+    assert rows[5].startswith("| 1.2 | as it is | 0.2129 | 17.9 | 360.1, 462.9 | 13.1 |")
+    assert rows[2].startswith("| 0.25 | for small | – | 7.2 | 0.0, 0.0 |")
+    text = plain(part.geometry_sentence([0.25, 1.2], small, full))
+    assert text.startswith("No verdict turns. The pitch is largest at 1.2 m/s, 17.9 degrees,")
+    assert "acceleration is wrong by 7.4 % there" in text and not faults(text)
+    turned = full._replace(margin=np.array([0.0, 1.0]))
+    assert "turns at 0.25 and 1.2 m/s" in plain(part.geometry_sentence([0.25, 1.2], small, turned))
 
 
 @pytest.mark.parametrize(
