@@ -91,13 +91,11 @@ def statics_table(laws, robot):
         )
         if at_rest > 1:
             beyond.append(name)
-    if not beyond:
-        return table(rows)
     note = (
         rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on: {join(beyond)}. With a stop it "
         "stands on it before it has driven a step."
     )
-    return f"{table(rows)}\n\n{note}"
+    return f"{table(rows)}\n\n{note}" if beyond else table(rows)
 
 
 # --- verdicts and critical speeds -----------------------------------------------------------------
@@ -167,7 +165,9 @@ def aftermath_table(asked, runs, delta_max):
             "law": name,
             "acceleration (m/s²)": number(run.acceleration[i]),
             r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
-            "in the air: rear, front (ms)": ", ".join(_air(t) for t in run.airtime[:, i]),
+            "in the air: rear, front (ms)": ", ".join(
+                fixed(1000 * t, 1) if t else "–" for t in run.airtime[:, i]
+            ),
             "flights": str(run.flights[:, i].sum()),
         }
         for i, v in enumerate(asked)
@@ -178,10 +178,6 @@ def aftermath_table(asked, runs, delta_max):
         return "No law loses contact at an asked speed."
     note = "Largest values of the whole way, and what both wheels spend in the air."
     return f"{table(rows)}\n\n{note}"
-
-
-def _air(seconds):
-    return fixed(1000 * seconds, 1) if seconds else "–"
 
 
 def margins_caption(critical):
@@ -345,10 +341,7 @@ def power_table(curvature, noticed, moved):
 
 
 def draws_sentence(kept, drawn, linear):
-    """How many coefficients were drawn, and how many of them are those of a spring.
-
-    `linear` says whether the readings do not contradict a line without preload.
-    """
+    """How many draws are those of a spring; `linear`: the readings do not contradict a line."""
     words = f"{drawn} draws of the three coefficients at once"
     if kept == drawn:
         words += "; in every one of them the force grows up to the stop."
