@@ -183,16 +183,14 @@ def geometry_sentence(asked, small, full):
     turned = np.extract(small.kept != full.kept, asked)
     verdict = f"The verdict turns at {speed_list(turned)}." if turned.size else "No verdict turns."
     i = int(np.argmax(full.pitch))
-    felt = abs(full.acceleration[i] / small.acceleration[i] - 1)
+    wrong = np.abs(small.acceleration / full.acceleration - 1)
+    worst = int(np.argmax(wrong))
     return (
-        f"{verdict} The pitch is largest at {speed_list([asked[i]])}, {_degrees(full.pitch[i])}, "
-        f"where {small_angle(full.pitch[i])}; the largest acceleration is wrong by "
-        f"{percent(felt)} there."
+        f"{verdict} The pitch is largest at {speed_list([asked[i]])}, "
+        f"{fixed(np.degrees(full.pitch[i]), 1)} degrees, where {small_angle(full.pitch[i])}. "
+        f"The largest acceleration is wrong most at {speed_list([asked[worst]])}, by "
+        f"{percent(wrong[worst])}."
     )
-
-
-def _degrees(angle):
-    return f"{fixed(np.degrees(angle), 1)} degrees"
 
 
 def models(flights, relaxed, robot):
