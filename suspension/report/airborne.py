@@ -12,6 +12,7 @@ from suspension.report.words import (
     fixed,
     join,
     number,
+    percent,
     quantity,
     speed_list,
 )
@@ -23,6 +24,8 @@ __all__ = [
     "first_flights",
     "flight_caption",
     "flight_table",
+    "geometry_sentence",
+    "geometry_table",
     "models",
     "order_caption",
     "who_flies",
@@ -120,6 +123,50 @@ def who_flies(flights, linear):
         f"Of the {count(len(flights), 'speed')} the robot flies at {every}. Up to the first "
         "lift-off the flight *is* the linear solution. After it, the linear model pulls the body "
         f"down where nothing holds it: it claims forces down to {claims}, which do not exist."
+    )
+
+
+def geometry_table(asked, small, full):
+    """The asked runs with a small pitch and with the full geometry, in both of which wheels fly.
+
+    Parameters
+    ----------
+    asked : sequence of float
+        Speeds, m/s.
+    small, full : suspension.sweep.Drive
+        On a ground that only pushes.
+    """
+    return table(
+        [
+            {
+                "v (m/s)": f"{v:g}",
+                "pitch taken": name,
+                "contact lost at X (m)": "–" if run.kept[i] else fixed(run.lost[i], 4),
+                "largest pitch (degrees)": fixed(np.degrees(run.pitch[i]), 1),
+                "in the air: rear, front (ms)": ", ".join(
+                    fixed(1000 * t, 1) for t in run.airtime[:, i]
+                ),
+                "largest acceleration (m/s²)": number(run.acceleration[i]),
+            }
+            for i, v in enumerate(asked)
+            for name, run in (("for small", small), ("as it is", full))
+        ]
+    )
+
+
+def geometry_sentence(asked, small, full):
+    """What the full geometry changes; arguments as in `geometry_table`."""
+    turned = np.extract(small.kept != full.kept, asked)
+    verdict = f"The verdict turns at {speed_list(turned)}." if turned.size else "No verdict turns."
+    i = int(np.argmax(full.pitch))
+    wrong = np.abs(small.acceleration / full.acceleration - 1)
+    worst = int(np.argmax(wrong))
+    return (
+        f"{verdict} The pitch is largest at {speed_list([asked[i]])}, "
+        f"{fixed(np.degrees(full.pitch[i]), 1)} degrees, whose cosine is not 1 but "
+        f"{fixed(np.cos(full.pitch[i]), 3)}. "
+        f"The largest acceleration is wrong most at {speed_list([asked[worst]])}, by "
+        f"{percent(wrong[worst])}."
     )
 
 

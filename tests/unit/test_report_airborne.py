@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 from cases import STIFFNESSES, faults
 
@@ -10,6 +11,7 @@ from suspension.report import airborne as part
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
+from suspension.sweep import drive
 from suspension.travel import Moment, moments
 
 BUMP = GaussianBump()
@@ -36,11 +38,14 @@ def flights(name, wheel="follows"):
 def test_sentences_about_flights_are_sound(name):
     robot, runs = ROBOTS[name], flights(name)
     linear = {v: simulate(robot, BUMP, v=v, dt=1e-3, tfinal=1) for v in SPEEDS}
+    ways = [drive(robot, BUMP, SPEEDS, geometry=geometry) for geometry in ("small", "full")]
     told = moments(runs[1.2], robot, BUMP)
     times = [moment.t for moment in told]
     assert times == sorted(times) and len(told) >= 3
     texts = [
         part.flight_table(runs.values(), robot),
+        part.geometry_table(SPEEDS, *ways),
+        part.geometry_sentence(SPEEDS, *ways),
         part.who_flies(runs, linear),
         part.models(runs, flights(name, "relaxes"), robot),
         *part.flight_caption(list(runs.values())),
@@ -127,6 +132,21 @@ def test_the_models_agree_or_not_as_the_numbers_say():
     assert "| 3.9 | 1.9 |" in part.models(*fast, robot)
     cut = {1.2: fly(robot, BUMP, v=1.2, tfinal=0.25)}
     assert "not the same" in part.models(runs, cut | {v: runs[v] for v in (0.5, 5)}, robot)
+
+
+@pytest.mark.slow
+def test_the_small_angle_is_compared_with_runs_that_fly_in_the_full_geometry():
+    robot = ROBOTS["k = 793"]
+    small, full = (drive(robot, BUMP, [0.25, 1.2], geometry=g) for g in ("small", "full"))
+    rows = plain(part.geometry_table([0.25, 1.2], small, full)).splitlines()
+    assert rows[4].startswith("| 1.2 | for small | 0.2123 | 17.8 | 362.3, 454.5 | 14.1 |")
+    assert rows[5].startswith("| 1.2 | as it is | 0.2129 | 17.9 | 360.1, 462.9 | 13.1 |")
+    assert rows[2].startswith("| 0.25 | for small | – | 7.2 | 0.0, 0.0 |")
+    text = plain(part.geometry_sentence([0.25, 1.2], small, full))
+    assert text.startswith("No verdict turns. The pitch is largest at 1.2 m/s, 17.9 degrees,")
+    assert "acceleration is wrong most at 0.25 m/s, by 16 %." in text and not faults(text)
+    turned = full._replace(margin=np.array([0.0, 1.0]))
+    assert "turns at 0.25 and 1.2 m/s" in plain(part.geometry_sentence([0.25, 1.2], small, turned))
 
 
 def test_the_orders_are_told():
