@@ -160,24 +160,23 @@ def geometry_sentence(asked, runs, full):
 def aftermath_table(asked, runs, delta_max):
     """What a ground that only pushes does to the robot where some law loses contact."""
     rows = [
-        {
-            "v (m/s)": f"{v:g}",
-            "law": name,
-            "acceleration (m/s²)": number(run.acceleration[i]),
-            r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
-            "in the air: rear, front (ms)": ", ".join(
-                fixed(1000 * t, 1) if t else "–" for t in run.airtime[:, i]
-            ),
-            "flights": str(run.flights[:, i].sum()),
-        }
+        {"v (m/s)": f"{v:g}", **{name: _felt(run, i, delta_max) for name, run in runs.items()}}
         for i, v in enumerate(asked)
         if not all(run.kept[i] for run in runs.values())
-        for name, run in runs.items()
     ]
     if not rows:
         return "No law loses contact at an asked speed."
-    note = "Largest values of the whole way, and what both wheels spend in the air."
+    note = (
+        "The largest acceleration of the body; the largest compression of a spring, in units of "
+        r"$\delta_{\max{}}$; and how long rear and front wheel are in the air, in ms."
+    )
     return f"{table(rows)}\n\n{note}"
+
+
+def _felt(run, i, delta_max):
+    acceleration = f"{number(run.acceleration[i])}{SPACE}m/s²"
+    air = " and ".join(fixed(1000 * t, 1) if t else "0" for t in run.airtime[:, i])
+    return f"{acceleration}; {fixed(run.compression[i] / delta_max, 2)}; {air}"
 
 
 def margins_caption(critical):
@@ -306,10 +305,7 @@ def order_sentence(orders):
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
     what = "With these steps the kink does not show."
     if list(orders.values())[-1] < KINK:
-        what = (
-            "A stop is a kink of the force, and [two is what a kink leaves]"
-            "(07-flight.ipynb#one-bad-step)."
-        )
+        what = "A stop is a kink of the force, and [two is what a kink leaves](#one-bad-step)."
     return f"Observed orders: {each}. {what}"
 
 
