@@ -35,7 +35,6 @@ __all__ = [
     "limit_table",
     "margins_caption",
     "order_caption",
-    "order_sentence",
     "power_table",
     "run_caption",
     "sign_table",
@@ -49,7 +48,6 @@ __all__ = [
 
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
 CLOSE = 1e-3  # critical speeds of different runs agree within this part
-KINK = 2.6  # an order below this is that of a kink, with its scatter
 OPEN, SIGNED = "open", {True: "lost", False: "kept"}
 
 
@@ -290,23 +288,12 @@ def limit_table(eigenvalues, dt):
 
 def order_caption(v, orders):
     """Caption of the error of RK4 on each law, with the observed orders."""
-    each = join((f"{name} {fixed(order, 1)}" for name, order in orders.items()), none="none")
+    each = join((f"{fixed(order, 1)} ({name})" for name, order in orders.items()), none="none")
     return Caption(
         f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside a run of DOP853 "
-        "with steps that are short at every kink.",
+        f"with steps that are short at every kink. Observed orders: {each}.",
         f"Error against time step on logarithmic axes; observed slopes: {each}.",
     )
-
-
-def order_sentence(orders):
-    """What the stop does to the order; `orders` by law, the stiffest stop last."""
-    if not orders:
-        return "The errors are too small to show an order."
-    each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
-    what = "With these steps the kink does not show."
-    if list(orders.values())[-1] < KINK:
-        what = "A stop is a kink of the force, and [two is what a kink leaves](#one-bad-step)."
-    return f"Observed orders: {each}. {what}"
 
 
 # --- how well it is known -------------------------------------------------------------------------

@@ -195,19 +195,11 @@ def test_the_problems_step_is_stable_on_the_stop_or_is_not():
     assert "**unstable**" in part.limit_table({"none": slow, "stop": fast}, 0.001)
 
 
-@pytest.mark.parametrize(
-    ("orders", "words"),
-    [
-        ({"no stop": 3.9, "stop": 2.0}, "two is what a kink leaves"),
-        ({"rubber": 2.1, "metal": 1.9}, "two is what a kink leaves"),
-        ({"no stop": 3.0, "stop": 3.9}, "does not show"),
-        ({}, "too small"),
-    ],
-)
-def test_the_order_is_lost_or_not(orders, words):
-    assert words in part.order_sentence(orders)
-    assert not faults(part.order_sentence(orders))
-    assert not faults(part.order_caption(10, orders).alt)
+def test_the_caption_tells_the_observed_orders():
+    caption = part.order_caption(10, {"rubber stop": 2.1, "metal stop": 1.9})
+    for text in caption:
+        assert "2.1 (rubber stop) and 1.9 (metal stop)" in text and not faults(text)
+    assert not faults(part.order_caption(10, {}).text)
 
 
 # --- how well it is known -------------------------------------------------------------------------
