@@ -10,10 +10,8 @@ from docutils import nodes
 from docutils.frontend import get_default_settings
 from docutils.parsers.rst import Parser
 from docutils.utils import new_document
-from helpers import PAGES, ROOT
-
-sys.path.append(str(ROOT / "book" / "_ext"))
 from formulas import KeepPunctuation
+from helpers import PAGES, ROOT
 
 # How many children an element of MathML Core has; those that are not named have any number.
 CHILDREN = {
