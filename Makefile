@@ -42,7 +42,7 @@ quick: lint
 test: readings lint
 	$(BIN)/python -m pytest $(BY_FILE) -m "not built" notebooks tests suspension
 	@$(MAKE) --no-print-directory book
-	$(BIN)/python -m pytest $(BY_FILE) -m built tests/book tests/browser
+	$(BIN)/python -m pytest $(BY_FILE) -m built tests/book tests/browser tests/unit/test_explorer_page.py
 
 # Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
 # MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.

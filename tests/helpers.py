@@ -6,12 +6,13 @@ import subprocess
 import threading
 import warnings
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import numpy as np
 import yaml
+from bs4 import BeautifulSoup
 
 ROOT = Path(__file__).resolve().parents[1]
 PARITY = 1e-9  # how closely the explorer's page follows `simulate`
@@ -39,6 +40,12 @@ PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
     for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
+
+
+@cache
+def parse(path):
+    """A page of the built book, taken apart; it takes a second or two, so once."""
+    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
 
 
 class Quantity:
