@@ -253,13 +253,13 @@ def test_brute_force_at_two_microseconds(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("v", [0.7, 1.2, 3, 5, 10])
+@pytest.mark.parametrize("v", [1.2, 3, 10])
 @pytest.mark.parametrize("name", KINKED)
 @pytest.mark.parametrize("wheel", MODELS)
 def test_a_road_with_kinks_flies_as_in_fine_steps(name, v, wheel):
     """Whether the road tells where its kinks are or not."""
     road, tfinal = KINKED[name], 0.5 / v + 0.06
-    robot = LOPSIDED if v in (1.2, 5) else ROBOT
+    robot = LOPSIDED if v == 1.2 else ROBOT
     expected, w = located(robot, road, v, tfinal, wheel)
     for told in (road.road, road.silent()):
         flight = fly(robot, told, v=v, tfinal=tfinal, wheel=wheel, resolution=0.005)
