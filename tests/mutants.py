@@ -96,7 +96,6 @@ EQUIVALENT = [
     ("least_force", "np.arange(-66, 133)", "30", DENSITY),
     ("choice", "MAX_", "", GUARD),
     ("choice", "cost > most", "cost > most", GUARD),
-    ("choice", "jac=", "2", "a longer gradient points the same way"),
     ("contact", "ends = {t[j - 1]", "1", "the force is positive at every earlier sample as well"),
     ("contact", "return ends[s] if", "", "only the sign of a roundoff may be another one"),
     ("critical", "ripples = 1 +", "1", DENSITY),
