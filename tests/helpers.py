@@ -6,12 +6,13 @@ import subprocess
 import threading
 import warnings
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import numpy as np
 import yaml
+from bs4 import BeautifulSoup
 
 ROOT = Path(__file__).resolve().parents[1]
 AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
@@ -40,6 +41,12 @@ PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
     for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
+
+
+@cache
+def parse(path):
+    """A page of the built book, taken apart; it takes a second or two, so once."""
+    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
 
 
 class Quantity:
