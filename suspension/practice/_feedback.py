@@ -71,7 +71,9 @@ def check(signature, praise):
 
 def fill(name):
     """A blank is no error."""
-    return Wrong(f"Fill in the blank of `{name}`: there is still a `...` in it.")
+    return Wrong(
+        f"Fill in the blank of `{name}`: there is still a `...` in it, or in what it uses."
+    )
 
 
 class Yours:
@@ -162,14 +164,17 @@ def numbers(value, name):
     return x if x.dtype.kind == "c" else x.astype(float)
 
 
-def several(value, names, function):
-    """The parts of a result that has several, such as ``W, T``, each as an array."""
+def several(value, names, function, ndim=None):
+    """The parts of a result that has several, such as ``W, T``, each as an array.
+
+    One array holds them all if it has the dimension `ndim`, and is a part itself otherwise.
+    """
     try:
-        parts = list(value)
+        parts = [value] if isinstance(value, np.ndarray) and value.ndim != ndim else list(value)
     except TypeError:
-        parts = []
+        parts = [value]
     if len(parts) != len(names):
-        count = f"{len(parts)} things" if parts else "one thing"
+        count = f"{len(parts)} things" if len(parts) != 1 else "one thing"
         raise Wrong(f"`{function}` returns {count}, where `{', '.join(names)}` are needed.")
     return [numbers(part, function) for part in parts]
 
@@ -227,6 +232,8 @@ def compare(yours, cases, right, mistakes, means, fails, close=CLOSE):
         ``fails(answer, *case)``: words for the property that does not hold.
     """
     answers = [numbers(yours(*case), yours.name) for case in cases]
+    if np.ndim(right(*cases[0])) == 0:  # one number may come in brackets
+        answers = [answer.squeeze() for answer in answers]
     if fits(answers, cases, right, close):
         return
     name_mistake(answers, cases, mistakes, close)

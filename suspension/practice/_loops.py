@@ -90,6 +90,10 @@ def check_history(yours, arguments, step, w0, dt, tfinal):
     wanted_W, wanted_T = history(step, w0, dt, tfinal)
     if T.ndim == 2 and W.ndim == 1:
         raise Wrong(f"`{yours.name}` returns T before W: the order is W, T.")
+    if T.ndim != 1:
+        raise Wrong(f"`{yours.name}` returns T of shape {T.shape}; all times are asked for.")
+    if T.shape == wanted_T.shape:
+        check_times(yours.name, T, wanted_T, dt)
     return W, T, wanted_W, wanted_T
 
 
@@ -99,11 +103,11 @@ def check_times(name, T, wanted, dt):
         return
     if near(T - dt, wanted):
         raise Wrong("T starts at dt: the first time is that of w0, 0.")
-    if len(T) > 1 and T.ndim == 1 and not np.isclose(T[1] - T[0], dt):
+    if len(T) > 1 and not np.isclose(T[1] - T[0], dt):
         raise Wrong(
             f"The times are {T[1] - T[0]:.6g} s apart, and dt is {dt:.6g} s: with `np.linspace`, "
             "J steps need J + 1 points."
         )
     raise Wrong(
-        f"`{name}` returns {np.size(T)} times; 0, dt, 2 dt, ... up to tfinal are {len(wanted)}."
+        f"`{name}` returns {len(T)} times; 0, dt, 2 dt, ... up to tfinal are {len(wanted)}."
     )

@@ -262,8 +262,8 @@ def check_crank_nicolson(crank_nicolson, rng):
         if not near(W, wanted_W):
             j = int(np.argmax(np.abs(W - wanted_W).max(axis=0) > 1e-9))
             raise Wrong(
-                f"Column {j} is the first that is not right: is it `cn_step` of the column before, with "
-                "F at T[j] and T[j + 1]?"
+                f"Column {j} is the first that is not right: is it `cn_step` of the column "
+                "before, with F at T[j] and T[j + 1]?"
                 if j
                 else "The first column is not w0."
             )

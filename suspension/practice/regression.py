@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from suspension.practice._feedback import check, compare, listed
+from suspension.practice._feedback import check, compare, listed, near
 
 __all__ = ["check_fit", "check_half_widths", "check_linearity", "check_scatter"]
 
@@ -35,11 +35,11 @@ def check_fit(fit, rng):
 
     def fails(beta, x, F):
         M = _design(x)
+        if near(beta, _fit(x, F), 0.01):
+            return "These coefficients are right to some digits only: are they rounded?"
         r = F - M @ beta
         cosines = M.T @ r / np.linalg.norm(M, axis=0) / np.linalg.norm(r)
         which = COLUMNS[np.abs(cosines) > 1e-6]
-        if not len(which):  # so near that only the last digits differ
-            return "The coefficients are right to some digits only: are they rounded?"
         return (
             f"The residuals F − Mβ are not orthogonal to {listed(which)}, so a nearer "
             f"parabola exists. "
@@ -58,6 +58,11 @@ def check_fit(fit, rng):
         "The parabola is the right one, its coefficients come the wrong way round: β0 first, "
         "please. Does `np.vander` or `np.polyfit` begin with the highest power?": (
             lambda x, F: _fit(x, F)[::-1]
+        ),
+        "These are coefficients of 1, x and x³: is the third column x²?": (
+            lambda x, F: np.linalg.lstsq(
+                np.column_stack([np.ones_like(x), x, x**3]), F, rcond=None
+            )[0]
         ),
         "This is MᵀF, the right-hand side alone: are the normal equations solved?": (
             lambda x, F: _design(x).T @ F
