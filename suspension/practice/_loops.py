@@ -70,8 +70,8 @@ LOOPS = {
     "There is one step too many: does T go beyond tfinal?": (
         lambda step, w0, dt, tfinal: history(step, w0, dt, tfinal + dt)[0]
     ),
-    "All columns are the last state: do they share one array that is changed in place? Store "
-    "a copy.": (_last_everywhere),
+    "All columns are the last state: do they share one array that is changed in place? Store a "
+    "copy.": (_last_everywhere),
     "Column j holds the state of column j + 1: is w changed in place before it is stored?": (
         _changed_in_place
     ),

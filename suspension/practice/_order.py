@@ -55,9 +55,8 @@ def patient(function, name, allowed=PATIENCE):
         count += 1
         if count > allowed:
             raise Wrong(
-                f"`{name}` has asked for {allowed} values and has not come to an end: does "
-                f"it always "
-                "get nearer to its end?"
+                f"`{name}` has asked for {allowed} values and has not come to an end: does it "
+                "always get nearer to its end?"
             )
         return function(*arguments)
 

@@ -43,8 +43,8 @@ def check_road_under_wheels(road_under_wheels, rng):
         wanted = _under(robot, road, v, t)
         i = int(np.argmax(~np.isclose(answer, wanted)))
         return (
-            f"{names[i]} is {answer[i]:.5g} and should be {wanted[i]:.5g}. The rear wheel "
-            "is at vt − L1, the front one at vt + L2, and h' is v times the slope."
+            f"{names[i]} is {answer[i]:.5g} and should be {wanted[i]:.5g}. The rear wheel is "
+            "at vt − L1, the front one at vt + L2, and h' is v times the slope."
         )
 
     mistakes = {
@@ -114,17 +114,16 @@ def check_normal_forces(normal_forces, rng):
             return "Ground that rises by 1 mm should add 1 mm times its own k to each force."
         return (
             "At rest, and over ground that is higher, the forces are right. Is each damper "
-            "squeezed at "
-            "h' − (Y' ∓ Lθ'), with its own c and its own L?"
+            "squeezed at h' − (Y' ∓ Lθ'), with its own c and its own L?"
         )
 
     mistakes = {
-        "The forces have the wrong sign: a spring that is squeezed, "
-        "h above Y, pushes, N > 0.": with_(sign=-1),
+        "The forces have the wrong sign: a spring that is squeezed, h above Y, pushes, "
+        "N > 0.": with_(sign=-1),
         "The rates of the ground are missing: a damper feels how fast wheel and body approach, "
         "h' − Y'.": with_(ground=0),
-        "The rates of the ground count with the wrong sign: h' − Y', "
-        "as h − Y in the spring.": with_(ground=-1),
+        "The rates of the ground count with the wrong sign: h' − Y', as h − Y "
+        "in the spring.": with_(ground=-1),
         "The dampers are missing: c times the rate at which each is squeezed.": with_(damping=0),
         "The dampers have the wrong sign: they resist, c (h' − Y' ...), like the springs.": with_(
             damping=-1
@@ -178,14 +177,12 @@ def check_accelerations(accelerations, rng):
         if abs(rest[0]) > 1e-6:
             return (
                 f"With forces that carry the weight Y'' is {rest[0]:.4g} m/s², and should be "
-                f"0: is the "
-                "weight there, and everything divided by m once?"
+                "0: is the weight there, and everything divided by m once?"
             )
         if abs(rest[1]) > 1e-6:
             return (
-                f"With forces whose moments balance θ'' is {rest[1]:.4g} rad/s², and should "
-                f"be 0: does "
-                "each force have its own arm?"
+                f"With forces whose moments balance θ'' is {rest[1]:.4g} rad/s², and should be "
+                "0: does each force have its own arm?"
             )
         return (
             "At rest both are right, for other forces they are not: Y'' is (N1 + N2)/m − g, θ'' is "
@@ -278,9 +275,8 @@ def check_first_loss(first_loss, rng):
         return np.array((i + 1, T[j])) if N[i, j] <= 0 else np.array(())
 
     mistakes = {
-        "A force of exactly zero counts as pressing here: a wheel that does not press has "
-        "lost the ground, "
-        "N <= 0.": lambda T, N: chosen(T, N < 0),
+        "A force of exactly zero counts as pressing here: a wheel that does not press has lost "
+        "the ground, N <= 0.": lambda T, N: chosen(T, N < 0),
         "The wheels are counted from 0: they are 1, rear, and 2, front.": (
             lambda T, N: right(T, N) - [1, 0] if right(T, N).size else right(T, N)
         ),
@@ -295,15 +291,13 @@ def check_first_loss(first_loss, rng):
             T, N <= 0, when=lambda lost: np.flatnonzero(lost.any(axis=0))[-1]
         ),
         "This is the time of the least force, when the wheel has long been in the air: the "
-        "first sample with "
-        "N <= 0 is asked for.": deepest,
+        "first sample with N <= 0 is asked for.": deepest,
         "Only the rear wheel is looked at.": alone(0),
         "Only the front wheel is looked at.": alone(1),
         "The rear wheel goes first here, even where the front one is lost earlier: take the "
         "earlier.": (rear_first),
         "Where both wheels press all the time there is a loss reported at the first sample: "
-        "`argmax` of "
-        "nothing but False is 0. Ask `any` before.": lambda T, N: (
+        "`argmax` of nothing but False is 0. Ask `any` before.": lambda T, N: (
             right(T, N) if (N <= 0).any() else np.array((1, T[0]))
         ),
         "The wheels have changed places: row 0 of N is wheel 1, the rear one.": (

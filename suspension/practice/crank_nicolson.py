@@ -60,26 +60,23 @@ def check_state_matrix(state_matrix, rng):
         rate = [r"Y'", "the acceleration Y''", "θ'", "the angular acceleration θ''"][i]
         return (
             f"Row {i + 1}, column {j + 1}, which says what {STATE[j]} does to {rate}, is "
-            f"{A[i, j]:.4g}, and should be {_matrix(r)[i, j]:.4g} for {r}."
+            f"{A[i, j]:.4g}, and should be {_matrix(r)[i, j]:.4g} for one of the robots tried."
         )
 
     mistakes = {
-        "The signs of rows 2 and 4 are turned round: a robot that is lifted is pulled down, "
-        "so A[1, 0] "
-        "is negative.": _times_rows(1, -1, 1, -1),
+        "The signs of rows 2 and 4 are turned round: a robot that is lifted is pulled down, so "
+        "A[1, 0] is negative.": _times_rows(1, -1, 1, -1),
         "The dampers have the wrong sign: they would feed the motion, trace A must be negative.": (
             lambda r: np.where([[0, 0, 0, 0], [0, 1, 0, 1]] * 2, -_matrix(r), _matrix(r))
         ),
-        "Front and rear have changed places in the coupling of Y and θ: θ > 0 lifts the "
-        "front, which "
-        "wheel is 1?": lambda r: _matrix(r, coupling=(-1, -1)),
+        "Front and rear have changed places in the coupling of Y and θ: θ > 0 lifts the front, "
+        "which wheel is 1?": lambda r: _matrix(r, coupling=(-1, -1)),
         "The coupling in row 2 has the wrong sign; that in row 4 is right, and both are the same "
         "k1 L1 − k2 L2.": lambda r: _matrix(r, coupling=(-1, 1)),
         "The coupling in row 4 has the wrong sign; that in row 2 is right, and both are the same "
         "k1 L1 − k2 L2.": lambda r: _matrix(r, coupling=(1, -1)),
-        "In the coupling of Y and θ both axles have one sign. The front one rises with θ, "
-        "the rear one "
-        "sinks: k1 L1 − k2 L2.": _summed,
+        "In the coupling of Y and θ both axles have one sign. The front one rises with θ, the "
+        "rear one sinks: k1 L1 − k2 L2.": _summed,
         "Y and θ do not feel each other: that holds for a symmetric robot only.": (
             lambda r: _matrix(r, coupling=(0, 0))
         ),
@@ -154,9 +151,8 @@ def check_cn_step(cn_step, rng):
         F = -A @ w
         if not near(np.asarray(cn_step(A, w, F, F, dt), float), w, 1e-6):
             return (
-                "An equilibrium does not stay: with F = −A w at both ends nothing may move. "
-                "Do w and F "
-                "have the same matrix in front of them, and the same dt/2?"
+                "An equilibrium does not stay: with F = −A w at both ends nothing may move. Do "
+                "w and F have the same matrix in front of them, and the same dt/2?"
             )
         zero = np.zeros(len(w))
         forward = np.asarray(cn_step(A, w, zero, zero, dt), float)
@@ -167,25 +163,21 @@ def check_cn_step(cn_step, rng):
             )
         if not near(forward, _step(A, w, zero, zero, dt), 1e-6):
             return (
-                "The growth of a mode is not (1 + z/2)/(1 − z/2), z = λ dt: is it dt/2 on "
-                "both sides?"
+                "The growth of a mode is not (1 + z/2)/(1 − z/2), z = λ dt: is it dt/2 on both "
+                "sides?"
             )
         return (
-            "Without F the step is right, with F it is not. Do both ends of the forcing "
-            "count, with "
-            "dt/2 each?"
+            "Without F the step is right, with F it is not. Do both ends of the forcing count, "
+            "with dt/2 each?"
         )
 
     mistakes = {
         "This is the explicit Euler method: A w is taken at the start alone. The trapezoid "
-        "takes the mean "
-        "of both ends.": _with(left=0, right=1, forcing=(1, 0)),
+        "takes the mean of both ends.": _with(left=0, right=1, forcing=(1, 0)),
         "This is backward Euler: A w is taken at the end alone. The trapezoid takes the mean "
-        "of both "
-        "ends.": _with(left=1, right=0, forcing=(0, 1)),
+        "of both ends.": _with(left=1, right=0, forcing=(0, 1)),
         "This is Heun's method: the end is predicted by Euler, not solved for. The unknown "
-        "stands on both "
-        "sides; collect it on the left.": _heun,
+        "stands on both sides; collect it on the left.": _heun,
         "Nothing is solved: this is the right-hand side b alone. (I − dt/2 A) w1 = b is the "
         "equation.": (_with(left=0)),
         "F is taken at the start alone: the trapezoid needs F1, too.": _with(forcing=(1, 0)),
@@ -201,8 +193,8 @@ def check_cn_step(cn_step, rng):
         "Both matrices are (I − dt/2 A): what goes from the end to the right changes its sign.": (
             _with(right=-0.5)
         ),
-        "F is added after the solving: it belongs to b, so it is multiplied by the inverse "
-        "as well.": (_outside),
+        "F is added after the solving: it belongs to b, so it is multiplied by the inverse as "
+        "well.": (_outside),
         "Here the matrices act on rows, w @ M: A is transposed by that. They belong to the "
         "left of w.": (lambda A, *rest: _step(A.T, *rest)),
         "`1 - dt/2 * A` subtracts from a 1 in every entry: the unit matrix is `np.eye(n)`.": (
@@ -245,8 +237,7 @@ def check_crank_nicolson(crank_nicolson, rng):
             lambda *case: _loops.history(*case)[0], ends=(1, 1)
         ),
         "F is taken in the middle of the step, which is of order 2 as well, but is the "
-        "midpoint rule's: "
-        "the trapezoid takes the mean of both ends.": loop(
+        "midpoint rule's: the trapezoid takes the mean of both ends.": loop(
             lambda *case: _loops.history(*case)[0], ends=(0.5, 0.5)
         ),
     }

@@ -195,7 +195,7 @@ def _judge(name, order, line, repaired):
         own = " That is the order it should have; measure it." if round(order) == full else ""
         raise Wrong(
             f"Halve the step: the error becomes {ratio} times smaller, and 2^p = {ratio} is "
-            f"not p = "
+            "not p = "
             f"{order:g}.{own}"
         )
     if (
@@ -219,8 +219,8 @@ def _judge(name, order, line, repaired):
     if not right_line:
         raise Wrong(
             f"{begin}With your line {line} it is of order {max(round(found), 0)}, not "
-            f"{full}: is another "
-            "line the wrong one? Read what each takes from the one before, and when."
+            f"{full}: is another line the wrong one? Read what each takes from the one before, "
+            "and when."
         )
     raise Wrong(
         f"{begin}Line {line} is the wrong one, but with yours it is of order "

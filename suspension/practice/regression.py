@@ -41,9 +41,8 @@ def check_fit(fit, rng):
         cosines = M.T @ r / np.linalg.norm(M, axis=0) / np.linalg.norm(r)
         which = COLUMNS[np.abs(cosines) > 1e-6]
         return (
-            f"The residuals F − Mβ are not orthogonal to {listed(which)}, so a nearer "
-            f"parabola exists. "
-            "Do your β solve MᵀM β = MᵀF, with the columns 1, x and x² in M?"
+            f"The residuals F − Mβ are not orthogonal to {listed(which)}, so a nearer parabola "
+            "exists. Do your β solve MᵀM β = MᵀF, with the columns 1, x and x² in M?"
         )
 
     mistakes = {
@@ -98,12 +97,11 @@ def check_scatter(scatter, rng):
         if not np.isclose(ratio, 2):
             return (
                 f"Where every residual doubles the scatter should double, yours is "
-                f"{ratio:.3g} times "
-                "as large. Is it the root of a sum of squares of F − Mβ?"
+                f"{ratio:.3g} times as large. Is it the root of a sum of squares of F − Mβ?"
             )
         return (
             f"Squared, it is {answer**2 / _squares(x, F, beta):.4g} times the sum of the "
-            f"squares of "
+            "squares of "
             f"the residuals, for {len(x)} readings. How many directions are left for the errors?"
         )
 
@@ -165,21 +163,18 @@ def check_half_widths(half_widths, rng):
         if np.ptp(factors) > 1e-6 * np.abs(factors).max():
             return (
                 "A joint half-width is the same number of standard errors for every coefficient, "
-                f"yours are {listed(f'{f:.3g}' for f in factors)}. Are the standard errors "
-                f"the roots "
-                "of the diagonal of σ̂²(MᵀM)⁻¹?"
+                f"yours are {listed(f'{f:.3g}' for f in factors)}. Are the standard errors the "
+                "roots of the diagonal of σ̂²(MᵀM)⁻¹?"
             )
         return (
             f"Your half-widths are {factors[0]:.4g} standard errors, the joint ones "
-            f"{joint(level, len(x)):.4g}, for level = {level:g} and {len(x)} readings. Is "
-            f"the factor "
-            "√(3 F(level; 3, n − 3))?"
+            f"{joint(level, len(x)):.4g}, for level = {level:g} and {len(x)} readings. Is the "
+            "factor √(3 F(level; 3, n − 3))?"
         )
 
     mistakes = {
         "These are the one-at-a-time intervals, by Student's t: each is right for its own "
-        "coefficient, "
-        "all three together less often. The question is about all at once.": times(
+        "coefficient, all three together less often. The question is about all at once.": times(
             lambda level, n: stats.t.ppf((1 + level) / 2, n - 3)
         ),
         "These are one-at-a-time intervals, and with a one-sided quantile, t(level): half of the "
@@ -187,8 +182,7 @@ def check_half_widths(half_widths, rng):
             lambda level, n: stats.t.ppf(level, n - 3)
         ),
         "These are Bonferroni's intervals for three coefficients: they hold jointly, but the "
-        "course's "
-        "are the shadows of the ellipsoid, with F in place of t.": times(
+        "course's are the shadows of the ellipsoid, with F in place of t.": times(
             lambda level, n: stats.t.ppf(1 - (1 - level) / 6, n - 3)
         ),
         "These are Bonferroni's intervals for two coefficients: all three at once are asked for, "
@@ -207,10 +201,12 @@ def check_half_widths(half_widths, rng):
         "The quantile is that of F(3, n): n − 3 degrees of freedom are left for σ̂.": times(
             lambda level, n: np.sqrt(3 * stats.f.ppf(level, 3, n))
         ),
-        "The quantile is F(1 − level), which holds hardly ever: is `level` taken for its "
-        "complement?": (times(lambda level, n: np.sqrt(3 * stats.f.ppf(1 - level, 3, n - 3)))),
-        "The factor is that of a known σ, by χ². Here σ is estimated from the "
-        "same readings.": times(lambda level, n: np.sqrt(stats.chi2.ppf(level, 3))),
+        "The quantile is F(1 − level), for intervals that hardly ever hold: is `level` taken "
+        "for its complement?": (
+            times(lambda level, n: np.sqrt(3 * stats.f.ppf(1 - level, 3, n - 3)))
+        ),
+        "The factor is that of a known σ, by χ². Here σ is estimated from "
+        "the same readings.": times(lambda level, n: np.sqrt(stats.chi2.ppf(level, 3))),
         "The standard errors lack σ̂: they are the roots of the diagonal of (MᵀM)⁻¹ alone.": (
             lambda x, F, level: joint(level, len(x)) * _errors(x, F) / _scatter(x, F, _fit(x, F))
         ),
@@ -255,10 +251,9 @@ def check_linearity(linearity, rng):
         growth = np.sum((F - line * x) ** 2) - _squares(x, F, _fit(x, F))
         return (
             f"Without β0 and β2 the sum of squares grows by {growth:.4g} N². Half of that, "
-            f"over σ̂², is "
+            "over σ̂², is "
             f"{distance(x, F):.4g}, and the distance is the same number; yours is "
-            f"{answer:.4g}. Is it "
-            "½ bᵀV⁻¹b, with b = (β0, β2) and V their own covariance?"
+            f"{answer:.4g}. Is it ½ bᵀV⁻¹b, with b = (β0, β2) and V their own covariance?"
         )
 
     mistakes = {

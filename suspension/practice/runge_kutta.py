@@ -71,8 +71,8 @@ STEPS = {
         stages(((1, HALF), (2, 1), (3, 1))),
         stages(((1, HALF), (2, 1), (3, 1)), (HALF, 1, 1)),
     ),
-    "Are all slopes taken at the time t? Those in the middle belong to t + dt/2, the last to "
-    "t + dt.": (stages(times=(0, 0, 0))),
+    "Are all slopes taken at the time t? Those in the middle belong to t + dt/2, the last to t "
+    "+ dt.": (stages(times=(0, 0, 0))),
     "Are k2 and k3 taken at the time t? They belong to t + dt/2.": stages(times=(0, 0, 1)),
     "Is k2 taken at the time t? It belongs to t + dt/2.": stages(times=(0, HALF, 1)),
     "Is k3 taken at the time t? It belongs to t + dt/2.": stages(times=(HALF, 0, 1)),
@@ -81,16 +81,16 @@ STEPS = {
         stages(times=(HALF, HALF, 0)),
     ),
     "Are k2 and k3 taken at the time t + dt? They belong to t + dt/2.": stages(times=(1, 1, 1)),
-    "Are all four weights 1/4? The two slopes in the middle count twice: "
-    "1, 2, 2, 1 over 6.": stages(weights=(1 / 4,) * 4),
+    "Are all four weights 1/4? The two slopes in the middle count twice: 1, 2, 2, "
+    "1 over 6.": stages(weights=(1 / 4,) * 4),
     "Do the weights sum to 1? A mean of 1, 2, 2, 1 is divided by 6.": (
         stages(weights=np.multiply(WEIGHTS, 6)),
         stages(weights=np.multiply(WEIGHTS, 6 / 4)),
         stages(weights=np.multiply(WEIGHTS, 6 / 8)),
         stages(weights=(1 / 6,) * 4),
     ),
-    "Do the weights of the middle and of the ends stand the wrong way round? They are 1, 2, "
-    "2, 1.": (stages(weights=(1 / 3, 1 / 6, 1 / 6, 1 / 3))),
+    "Do the weights of the middle and of the ends stand the wrong way round? They are 1, 2, 2, "
+    "1.": (stages(weights=(1 / 3, 1 / 6, 1 / 6, 1 / 3))),
     "Are the slopes not multiplied by dt at the end?": stages(scaled=False),
     "Is dt there once too often? Either the slopes carry it, or the sum does.": (
         _twice_scaled,
@@ -102,8 +102,8 @@ STEPS = {
     "This is the midpoint rule, the step is taken along k2 alone: where are k3 and k4?": stages(
         weights=(0, 1, 0, 0)
     ),
-    "Does the sum start from something other than w? It adds to the state at the start of "
-    "the step.": (
+    "Does the sum start from something other than w? It adds to the state at the start of the "
+    "step.": (
         lambda g, w, t, dt: rk4_step(g, w, t, dt) - w,
         lambda g, w, t, dt: rk4_step(g, w, t, dt) + dt * g(w + dt / 2 * g(w, t), t + dt / 2),
     ),
@@ -178,8 +178,8 @@ def check_rk4(rk4, rng):
     order = order_of_run(lambda *case: rk4(*case)[0], rng)
     if order < ENOUGH:
         raise Wrong(
-            f"This run {said(order, 4)}. Does `check_rk4_step` find "
-            "your step right? If so: does step j start from W[:, j], at T[j]?"
+            f"This run {said(order, 4)}. Does `check_rk4_step` find your step right? If so: "
+            "does step j start from W[:, j], at T[j]?"
         )
 
 
@@ -208,8 +208,7 @@ def check_observed_order(observed_order, rng):
     def fails(answer, dts, errors):
         return (
             f"Errors that fall like dt to the power {_observed(dts, errors):.3g} give "
-            f"{answer:.3g}. Is it "
-            "the change of log(error) over the change of log(dt)?"
+            f"{answer:.3g}. Is it the change of log(error) over the change of log(dt)?"
         )
 
     mistakes = {
@@ -219,15 +218,13 @@ def check_observed_order(observed_order, rng):
         "It is the inverse of the order: have the axes changed places? log(error) over log(dt).": (
             lambda dts, errors: 1 / _observed(dts, errors)
         ),
-        "This is how many times the error shrinks from one step to the next: the order is "
-        "the logarithm of "
-        "that, over the logarithm of the ratio of the steps.": (
+        "This is how many times the error shrinks from one step to the next: the order is the "
+        "logarithm of that, over the logarithm of the ratio of the steps.": (
             lambda dts, errors: errors[0] / errors[1],
             lambda dts, errors: errors[-2] / errors[-1],
         ),
-        "This is right for steps that are halved, log2(error ratio); these are not. Divide "
-        "by the logarithm "
-        "of the ratio of the steps.": (
+        "This is right for steps that are halved, log2(error ratio); these are not. Divide by "
+        "the logarithm of the ratio of the steps.": (
             lambda dts, errors: np.log2(errors[0] / errors[1]),
             lambda dts, errors: np.log2(errors[-2] / errors[-1]),
         ),
@@ -243,8 +240,7 @@ def check_observed_order(observed_order, rng):
             lambda dts, errors: (errors[0] - errors[-1]) / (dts[0] - dts[-1]),
         ),
         "This is log(error)/log(dt) of one point, which the constant in front of the power "
-        "spoils: take the "
-        "change between two.": (
+        "spoils: take the change between two.": (
             lambda dts, errors: np.log(errors[-1]) / np.log(dts[-1]),
             lambda dts, errors: np.log(errors[0]) / np.log(dts[0]),
         ),

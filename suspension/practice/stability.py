@@ -30,17 +30,16 @@ def check_stability_function(stability_function, rng):
         at_zero = complex(numbers(stability_function(a, b, 0j), stability_function.name))
         if not near(at_zero, 1):
             return (
-                f"R(0) is {at_zero:.4g}; a step without a slope must keep the state: R(0) = "
-                f"1. Is the 1 "
-                "in front missing?"
+                f"R(0) is {at_zero:.4g}; a step without a slope must keep the state: R(0) = 1. "
+                "Is the 1 in front missing?"
             )
         h = 1e-6
         rate = (complex(stability_function(a, b, h + 0j)) - at_zero).real / h
         if not np.isclose(rate, 1, atol=1e-3):
             return f"Near z = 0, R should be 1 + z, and it is 1 + {rate:.3g} z: what multiplies z?"
         return (
-            "Its first two terms, 1 + z, are right, the others are not: is a the matrix in "
-            "(I − z a), and are the values at the stages its solution for a column of ones?"
+            "Its first two terms, 1 + z, are right, the others are not: is a the matrix in (I "
+            "− z a), and are the values at the stages its solution for a column of ones?"
         )
 
     mistakes = {
@@ -80,8 +79,7 @@ def check_stability_function(stability_function, rng):
         if answer.shape != ():
             raise Wrong(
                 f"`stability_function` returns an array of shape {answer.shape}; R is one "
-                f"number. Does bᵀ "
-                "multiply the stages as a row, b @ s?"
+                "number. Does bᵀ multiply the stages as a row, b @ s?"
             )
         if not near(answer, _R(*case)):
             raise Wrong(fails(answer, *case))
@@ -119,8 +117,7 @@ def check_is_stable(is_stable, rng):
         if answer.shape == eigenvalues.shape:
             raise Wrong(
                 "This is an answer for each eigenvalue: one for the whole run is asked for, "
-                "and a run is "
-                "bounded if all its modes are."
+                "and a run is bounded if all its modes are."
             )
         if answer.size != 1 or answer.ravel()[0] not in (0, 1):
             raise Wrong("`is_stable` should return True or False.")
@@ -152,7 +149,7 @@ def check_is_stable(is_stable, rng):
         "This asks whether |λ dt| <= 1, whatever the method: its region is |R(z)| <= 1.": (
             lambda R, z, dt: float(np.all(np.abs(z * dt) <= 1)),
         ),
-        "It looks at the first eigenvalue alone: the fastest decides, wherever it stands.": (
+        "It looks at the first eigenvalue alone: all of them count.": (
             lambda R, z, dt: float(np.abs(R(z[:1] * dt))[0] <= 1 + 1e-12)
         ),
         "It says stable where it is not, and the other way round.": (
@@ -168,8 +165,8 @@ def check_is_stable(is_stable, rng):
         if answer != right(R, eigenvalues, dt):
             growth = np.abs(R(eigenvalues * dt)).max()
             raise Wrong(
-                f"For the eigenvalues {np.round(eigenvalues, 3)} and dt = {dt:.3g} the "
-                f"largest |R| is "
+                f"For the eigenvalues {np.round(eigenvalues, 3)} and dt = {dt:.3g} the largest "
+                "|R| is "
                 f"{growth:.4g}, and you say {'stable' if answer else 'unstable'}."
             )
 
@@ -185,35 +182,32 @@ def check_largest_step(largest_step, rng):
         growth = np.abs(RK4.stability_function(eigenvalues * answer)).max()
         if growth > 1:
             return (
-                f"At your step, {answer:.4g} s, a mode is multiplied by |R| = {growth:.4g} "
-                f"in every step: "
-                "it is too long. Does every eigenvalue leave at its own step, and is the "
-                "smallest taken?"
+                f"At your step, {answer:.4g} s, a mode is multiplied by |R| = {growth:.4g} in "
+                "every step: it is too long. Does every eigenvalue leave at its own step, and "
+                "is the smallest taken?"
             )
         return (
-            f"At your step, {answer:.4g} s, the largest |R| is {growth:.4g}: there is room "
-            f"for a longer "
-            "one. Is the limit where |R(λ dt)| = 1, along each eigenvalue's own ray?"
+            f"At your step, {answer:.4g} s, the largest |R| is {growth:.4g}: there is room for "
+            "a longer one. Is the limit where |R(λ dt)| = 1, along each eigenvalue's own ray?"
         )
 
     def each(eigenvalues, scheme=RK4):
         return [scheme.max_stable_dt([x]) for x in eigenvalues]
 
     mistakes = {
-        "This is the limit of the slowest mode to leave: the first to leave decides, take "
-        "the least.": (lambda z: max(each(z))),
+        "This is the limit of the slowest mode to leave: the first to leave decides, take the "
+        "least.": (lambda z: max(each(z))),
         "This is 2√2/|λ|, the limit of undamped modes: damping tilts the rays away from the "
-        "imaginary "
-        "axis.": lambda z: IMAGINARY / np.abs(z).max(),
-        "This is 2.785/|λ|, as if the eigenvalues were real: theirs are other rays, with "
-        "other limits.": (lambda z: REAL / np.abs(z).max()),
+        "imaginary axis.": lambda z: IMAGINARY / np.abs(z).max(),
+        "This is 2.785/|λ|, as if the eigenvalues were real: theirs are other rays, with other "
+        "limits.": (lambda z: REAL / np.abs(z).max()),
         "This looks at the real parts alone, 2.785/|Re λ|: the imaginary parts take part in "
         "|R(λ dt)|.": (
             lambda z: REAL / np.abs(z.real).max(),
             lambda z: REAL / np.abs(z.real).min(),
         ),
-        "This looks at the imaginary parts alone, 2√2/|Im λ|: the real parts take part in "
-        "|R(λ dt)|.": (lambda z: IMAGINARY / np.abs(z.imag).max()),
+        "This looks at the imaginary parts alone, 2√2/|Im λ|: the real parts take part in |R(λ "
+        "dt)|.": (lambda z: IMAGINARY / np.abs(z.imag).max()),
         "This is Euler's limit: R here is 1 + z + z²/2 + z³/6 + z⁴/24.": (
             lambda z: min(each(z, EULER)),
         ),

@@ -497,7 +497,7 @@ PLANTED = {
         ("return w_new, error", "return w_new, w_new - w", "change of the state"),
         ("return w_new, error", "return w_new, w_new - error", "difference of both is asked for"),
         ("return w_new, error", "return error, w_new", "State and error"),
-        (" + k4 / 8", "", "−1/8"),
+        (" + k4 / 8", "", "does not count"),
         ("return w_new, error", "return w_new, np.abs(error).max()", "one number for each"),
         ("return w_new, error", "return w_new", "one thing"),
         ("k4 / 8", "k4 / 9", "both rows of weights"),
@@ -519,8 +519,8 @@ PLANTED = {
     ],
     "integrate": [
         ("if largest <= tolerance:", "if True:", "is kept with an error"),
-        ("np.abs(error).max()", "error.max()", "absolute value"),
-        ("np.abs(error).max()", "np.abs(error).mean()", "largest component"),
+        ("np.abs(error).max()", "error.max()", "dt becomes tiny"),
+        ("np.abs(error).max()", "np.abs(error).mean()", "is the largest asked"),
         ("dt = min(dt, tfinal - t)\n", "pass\n", "shorten the last step"),
         (
             "            w, t = w_new, t + dt",
@@ -532,7 +532,8 @@ PLANTED = {
             "        if largest > tolerance:\n            dt = next_step",
             "equally long",
         ),
-        ("        dt = next_step(dt, largest, tolerance, 2)", "        pass", "again and again"),
+        ("        dt = next_step(dt, largest, tolerance, 2)", "        pass", "equally long"),
+        ("        dt = next_step", "            dt = next_step", "again and again"),
         ("w, t = w_new, t + dt", "w, t = w, t + dt", "does not change"),
         ("w, t = w_new, t + dt", "w, t = w_new - error, t + dt", "second-order result, w − error"),
         ("W, T = [w], [t]", "W, T = [], []", "begin with w0"),
@@ -913,7 +914,7 @@ def test_the_references_agree_with_the_package_and_with_scipy():
     np.testing.assert_allclose(space["linearity"](x, F), test.statistic, rtol=1e-8)
 
 
-# --- bug hunts --------------------------------------------------------------------------------------
+# --- bug hunts -----------------------------------------------------------------------------------
 
 FOUND = {
     "trapezoid": (1, 8, "b = right @ W[:, j] + dt / 2 * (F(T[j]) + F(T[j + 1]))"),
