@@ -519,6 +519,7 @@ PLANTED = {
     ],
     "integrate": [
         ("if largest <= tolerance:", "if True:", "is kept with an error"),
+        ("if largest <= tolerance:", "if error.max() <= tolerance:", "value been forgotten"),
         ("np.abs(error).max()", "error.max()", "dt becomes tiny"),
         ("np.abs(error).max()", "np.abs(error).mean()", "is the largest asked"),
         ("dt = min(dt, tfinal - t)\n", "pass\n", "shorten the last step"),
@@ -833,6 +834,15 @@ def test_no_constant_passes(name):
     ):
         said = CHECKS[name](lambda *arguments, value=value: value)
         assert not said and len(said) > 20, said
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_nothing_that_is_returned_stops_a_check(name):
+    odd = [], [[]], {}, "a", [None], ((), ()), [[1, 2], [3]], object(), np.nan, (np.nan, np.nan)
+    odd += np.full((4, 4), np.nan), 1j, [1j, 2], (1, 2, 3), np.array([[None]]), b"x", [{}], {1: 2}
+    for value in odd:
+        said = CHECKS[name](lambda *arguments, value=value: value)
+        assert isinstance(said, practice.Feedback) and not said, value
 
 
 @pytest.mark.parametrize("name", CHECKS)
