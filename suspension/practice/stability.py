@@ -27,14 +27,17 @@ def check_stability_function(stability_function, rng):
     """Whether ``stability_function(a, b, z)`` is R(z) of a tableau, z complex."""
 
     def fails(answer, a, b, z):
-        at_zero = complex(stability_function(a, b, 0j))
+        def R(z):
+            return complex(numbers(stability_function(a, b, z), "R", real=False).squeeze())
+
+        at_zero = R(0j)
         if not near(at_zero, 1):
             return (
                 f"R(0) is {at_zero:.4g}; a step without a slope must keep the state: R(0) = 1. "
                 "Is the 1 in front missing?"
             )
         h = 1e-6
-        rate = (complex(stability_function(a, b, h + 0j)) - at_zero).real / h
+        rate = (R(h + 0j) - at_zero).real / h
         if not np.isclose(rate, 1, atol=1e-3):
             return f"Near z = 0, R should be 1 + z, and it is 1 + {rate:.3g} z: what multiplies z?"
         return (
