@@ -12,7 +12,6 @@ A blank, an exception and a wrong shape are told in words, too.
 False
 """
 
-from suspension.practice._feedback import Feedback
 from suspension.practice.contact import (
     check_accelerations,
     check_first_loss,
@@ -24,6 +23,7 @@ from suspension.practice.crank_nicolson import (
     check_crank_nicolson,
     check_state_matrix,
 )
+from suspension.practice.feedback import Feedback
 from suspension.practice.hunts import check_hunt, errors_of, listing_of
 from suspension.practice.regression import (
     check_fit,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension.practice._feedback import Wrong, near, several
+from suspension.practice.feedback import Wrong, near, several
 
 SHAPE = "a column for each time, the first of them w0"
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from suspension.practice._feedback import PATIENCE, Wrong
+from suspension.practice.feedback import PATIENCE, Wrong
 
 STEPS = (80, 160)  # so fine that the first term of an error rules
 

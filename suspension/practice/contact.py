@@ -3,8 +3,8 @@
 import numpy as np
 
 from suspension.forces import first_loss as _first_loss
-from suspension.practice._feedback import Wrong, check, compare, fits, name_mistake, near, several
 from suspension.practice.crank_nicolson import some_robot
+from suspension.practice.feedback import Wrong, check, compare, fits, name_mistake, near, several
 from suspension.road import GaussianBump
 
 __all__ = [

@@ -3,7 +3,7 @@
 import numpy as np
 
 from suspension.practice import _loops
-from suspension.practice._feedback import Wrong, check, compare, name_mistake, near
+from suspension.practice.feedback import Wrong, check, compare, name_mistake, near
 from suspension.robot import Robot
 
 __all__ = ["check_cn_step", "check_crank_nicolson", "check_state_matrix"]

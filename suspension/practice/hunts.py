@@ -5,8 +5,8 @@ import textwrap
 
 import numpy as np
 
-from suspension.practice._feedback import Feedback, Wrong, Yours, fill
 from suspension.practice._order import problem, slope
+from suspension.practice.feedback import Feedback, Wrong, Yours, fill
 
 __all__ = ["check_hunt", "errors_of", "listing_of"]
 

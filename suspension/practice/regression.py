@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from suspension.practice._feedback import check, compare, listed, near
+from suspension.practice.feedback import check, compare, listed, near
 
 __all__ = ["check_fit", "check_half_widths", "check_linearity", "check_scatter"]
 

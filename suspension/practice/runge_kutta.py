@@ -3,15 +3,6 @@
 import numpy as np
 
 from suspension.practice import _loops
-from suspension.practice._feedback import (
-    Wrong,
-    check,
-    compare,
-    must_have_shape,
-    name_mistake,
-    near,
-    numbers,
-)
 from suspension.practice._order import (
     order_of_run,
     order_of_step,
@@ -19,6 +10,15 @@ from suspension.practice._order import (
     problem,
     said,
     without_time,
+)
+from suspension.practice.feedback import (
+    Wrong,
+    check,
+    compare,
+    must_have_shape,
+    name_mistake,
+    near,
+    numbers,
 )
 
 __all__ = ["check_observed_order", "check_rk4", "check_rk4_step"]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from suspension.practice._feedback import Wrong, check, compare, fits, name_mistake, near, numbers
 from suspension.practice.crank_nicolson import some_robot
+from suspension.practice.feedback import Wrong, check, compare, fits, name_mistake, near, numbers
 from suspension.schemes import CRANK_NICOLSON, EULER, RK4
 
 __all__ = ["check_is_stable", "check_largest_step", "check_stability_function"]

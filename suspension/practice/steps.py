@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from suspension.practice._feedback import (
+from suspension.practice._order import order_of_step, patient, problem, said
+from suspension.practice.feedback import (
     PATIENCE,
     Wrong,
     check,
@@ -14,7 +15,6 @@ from suspension.practice._feedback import (
     numbers,
     several,
 )
-from suspension.practice._order import order_of_step, patient, problem, said
 
 __all__ = ["check_integrate", "check_locate", "check_next_step", "check_pair_step"]
 

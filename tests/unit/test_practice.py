@@ -35,7 +35,7 @@ def solutions():
         space = {}
         exec(imports, space)
         for cell in cells:
-            if cell.id.startswith("solution-") and cell.source.startswith("def "):
+            if "solution" in cell.metadata.get("tags", []) and cell.source.startswith("def "):
                 exec(cell.source, space)
                 found[re.match(r"def (\w+)", cell.source)[1]] = cell.source, space
     return found

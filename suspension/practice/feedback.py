@@ -13,6 +13,8 @@ from copy import deepcopy
 
 import numpy as np
 
+__all__ = ["Feedback"]
+
 SEED = 2086
 CLOSE = 1e-7  # relative to the largest element: roundoff is less, and no mistake is
 PATIENCE = 20_000  # evaluations after which a loop is said not to end
