@@ -22,8 +22,6 @@ HEADING = re.compile(r"^#+ .*", re.MULTILINE)
 SOLVED = re.compile(r"#+ (Solution|Answer)\b")
 ANSWER = re.compile(r"^answer\(", re.MULTILINE)
 PAGE = re.compile(r"\[([^\]]*)\]\((?:\.\./)+book/[^)]*\)")
-    r"\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\((?:\.\./)+book/[^)]*\)"
-)  # brackets may hold brackets
 PIN = re.compile(r"^[\w.-]+==[^\\\n]*[^\\\s]", re.MULTILINE)
 START = """# {title}
 
