@@ -982,3 +982,13 @@ def test_errors_of_a_hunt_fall_as_the_listing_has_it():
     assert practice.listing_of("slopes").splitlines()[0] == " 1  def slopes(g, w0, dt, tfinal):"
     with pytest.raises(ValueError, match="name must be one of trapezoid, "):
         practice.listing_of("wolf")
+
+
+def test_the_page_shows_what_a_check_says():
+    page = (ROOT / "book" / "workbook.md").read_text(encoding="utf-8")
+    code, words = re.search(r"```python\n(.*?)```\s+```text\n(.*?)\n```", page, re.DOTALL).groups()
+    *definition, call = code.strip().splitlines()
+    space = {"practice": practice}
+    exec("\n".join(definition), space)
+    assert eval(call, space) == words
+    assert "Five integrators" in page and len(hunts._HUNTS) == 5
