@@ -1,4 +1,4 @@
-# make book | pdf | quick | test | mutants | lab | notebooks | bench | requirements | clean
+# make book | pdf | quick | test | mutants | lab | notebooks | students | solutions | bench | requirements | clean
 # Needs Python 3.11, 3.12, 3.13 or 3.14 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.14 python3.13 python3.12 python3.11,$(shell \
@@ -19,7 +19,7 @@ WITHOUT_NBVAL := -p no:nbval --override-ini addopts="--doctest-modules --import-
 # Notebooks and tests run side by side: threads for small matrices would only stand in their way.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: book pdf printer readings lint quick test mutants lab notebooks bench twice requirements clean
+.PHONY: book pdf printer readings lint quick test mutants lab notebooks students solutions bench twice requirements clean
 
 book: $(VENV) readings
 	@echo "Building the book (two minutes) ..."
@@ -67,7 +67,12 @@ printer: $(VENV)
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
 	@echo "Executing the notebooks (a minute) ..."
-	@$(BIN)/python notebooks/normalise.py notebooks/*.ipynb
+	@$(BIN)/python notebooks/normalise.py notebooks/*.ipynb notebooks/workbook/*.ipynb
+
+# The notebooks to hand out: without solutions and answers, and the lecturer's copy, its blanks filled.
+students solutions: $(VENV)
+	@echo "Packing the notebooks (a moment) ..."
+	@$(BIN)/python book/_ext/students.py $@
 
 # Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
 bench: $(PEERS)
