@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 
 from docutils import nodes
-from myst_nb.sphinx_ import NbMetadataCollector
+from myst_nb.sphinx_ import HideCodeCellNode, NbMetadataCollector
 from results import find
 from sphinx.addnodes import pending_xref
 from sphinx.transforms.post_transforms import SphinxPostTransform
@@ -120,9 +120,25 @@ class ExplorerLinks(SphinxPostTransform):
         return None, None
 
 
+class CodeBelow(SphinxPostTransform):
+    """The folded code of an explorer stands below it: what one came for is in sight at once."""
+
+    default_priority = 200  # once MyST-NB has folded it
+    formats = ("html",)
+
+    def run(self, **kwargs):
+        """Visit the folds of one page."""
+        for fold in list(self.document.findall(HideCodeCellNode)):
+            cell = fold.parent
+            if any(BOX in node.astext() for node in cell.findall(nodes.raw)):
+                cell.remove(fold)
+                cell.append(fold)
+
+
 def setup(app):
     """Connect to Sphinx."""
     app.add_directive("explorer", ExplorerDirective)
+    app.add_post_transform(CodeBelow)
     app.add_post_transform(ExplorerLinks)
     app.connect("builder-inited", write_files)
     app.connect("source-read", keep_pages, priority=110)  # once they have been run
