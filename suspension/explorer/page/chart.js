@@ -14,7 +14,7 @@ export const chartPanel = {
   still(pen, scene) {
     const { w, h, stroke, fill, line, text, inside } = pen,
       { curve, data, settings, highestBumps } = scene;
-    const [left, right, top, bottom] = [38, w - 12, 24, h - 33],
+    const [left, right, top, bottom] = [46, w - 12, 24, h - 33],
       [slow, fast] = data.ranges.v,
       [low, high] = data.chart.heights;
     const px = (v) => left + ((right - left) * Math.log(v / slow)) / Math.log(fast / slow);
@@ -29,6 +29,12 @@ export const chartPanel = {
         : []),
     ]);
     text("speed v (m/s)", right, h - 4, { align: "right" });
+    text(show(MM * settings.height, settings.height < 1e-4 ? 2 : 3), left - 6, y + 4, {
+      align: "right",
+      colour: "ink",
+      bold: true,
+      halo: true,
+    }); // first, so that a number of the axis gives way
     for (const v of powers(slow, fast)) {
       stroke("soft", 1);
       line(px(v), bottom, px(v), bottom + 4);
@@ -53,6 +59,7 @@ export const chartPanel = {
       stroke("ink", 3, [], own);
     });
     drawBump(pen, scene, this.frame);
+    for (const limit of data.chart.limits) nameLimit(pen, limit, settings, this.frame, slow, fast);
   },
   grab(_x, y) {
     const { top, bottom, low, high } = this.frame;
@@ -72,30 +79,42 @@ export const limitAt = ({ amplitude, powers: of }, settings, v) =>
     amplitude,
   );
 
-/** A limit as a thin line, its name along it where it is seen. */
-function drawLimit({ g, stroke, line, text }, limit, settings, frame, slow, fast) {
-  const { px, py, left, right, top, bottom } = frame;
-  const [from, to] = [slow, fast].map((v) => [px(v), py(limitAt(limit, settings, v))]);
-  if (![from[1], to[1]].every(Number.isFinite)) return; // no damper, no such limit
+/** Where a limit begins and ends in the picture, or null: without a damper there is no skim. */
+function endsOf(limit, settings, { px, py }, slow, fast) {
+  const ends = [slow, fast].map((v) => [px(v), py(limitAt(limit, settings, v))]);
+  return ends.every(([, y]) => Number.isFinite(y)) ? ends : null;
+}
+
+/** A limit as a thin line. */
+function drawLimit({ stroke, line }, limit, settings, frame, slow, fast) {
+  const ends = endsOf(limit, settings, frame, slow, fast);
   stroke("soft", 1.2, [6, 4]);
-  line(...from, ...to);
-  const slope = (to[1] - from[1]) / (to[0] - from[0]),
+  if (ends) line(...ends.flat());
+}
+
+/** Its name along it, where it is seen and there is room. */
+function nameLimit({ g, text }, limit, settings, frame, slow, fast) {
+  const line = endsOf(limit, settings, frame, slow, fast);
+  if (!line) return;
+  const { left, right, top, bottom } = frame,
+    [from, to] = line,
+    slope = (to[1] - from[1]) / (to[0] - from[0]),
     ends = [top + 16, bottom - 6].map((y) => clamp(from[0] + (y - from[1]) / slope, left, right));
   if (Math.abs(ends[1] - ends[0]) < 40) return;
-  const places = [0.3, 0.15, 0.6].map((share) => {
+  const write = (share) => {
     const x = ends[0] + share * (ends[1] - ends[0]);
-    return [x, from[1] + slope * (x - from[0])];
-  });
-  const free = places.find(([, y]) => Math.abs(y - frame.y) > 20) ?? places[0]; // of the bump
-  g.save();
-  g.translate(...free);
-  g.rotate(Math.atan(slope));
-  text(limit.name, 0, -5, { align: "center", halo: true });
-  g.restore();
+    g.save();
+    g.translate(x, from[1] + slope * (x - from[0]));
+    g.rotate(Math.atan(slope));
+    const written = text(limit.name, 0, -5, { align: "center", halo: true });
+    g.restore();
+    return written;
+  };
+  [0.3, 0.15, 0.6, 0.45, 0.75].some(write);
 }
 
 /** The bump across: thick where contact is kept, with the critical speeds and those asked for. */
-function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data, settings }, frame) {
+function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data }, frame) {
   const { px, y, left, right, bottom } = frame,
     edges = [data.ranges.v[0], ...critical, data.ranges.v[1]].map(px);
   edges.slice(1).forEach((b, i) => {
@@ -113,20 +132,12 @@ function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data
   });
   for (const v of data.asked) dot(px(v), y, 4.5, "paper", "ink", 1.5);
   const names = distinct(critical),
-    rows = y + 36 < bottom ? [20, 34] : [-22, -36], // where there is room for the numbers
-    last = [-Infinity, -Infinity];
+    rows = y + 36 < bottom ? [20, 34] : [-22, -36]; // where there is room for the numbers
   critical.forEach((v, i) => {
     dot(px(v), y, 4.5, "ink");
-    const x = clamp(px(v), left + 14, right - 14),
-      row = last.findIndex((before) => x - before > 36);
-    if (row < 0) return; // the words above the picture have them all
-    text(names[i], x, y + rows[row], { align: "center", colour: "ink", bold: true, halo: true });
-    last[row] = x;
-  });
-  text(show(MM * settings.height), left - 6, y + 4, {
-    align: "right",
-    colour: "ink",
-    bold: true,
-    halo: true,
+    const x = clamp(px(v), left + 14, right - 14); // if there is none, the words above have them all
+    rows.some((row) =>
+      text(names[i], x, y + row, { align: "center", colour: "ink", bold: true, halo: true }),
+    );
   });
 }
