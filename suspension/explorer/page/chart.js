@@ -101,16 +101,20 @@ function nameLimit({ g, text }, limit, settings, frame, slow, fast) {
     slope = (to[1] - from[1]) / (to[0] - from[0]),
     ends = [top + 16, bottom - 6].map((y) => clamp(from[0] + (y - from[1]) / slope, left, right));
   if (Math.abs(ends[1] - ends[0]) < 40) return;
-  const write = (share) => {
+  const places = [0.3, 0.15, 0.6, 0.45, 0.75].map((share) => {
     const x = ends[0] + share * (ends[1] - ends[0]);
+    return [x, from[1] + slope * (x - from[0])];
+  });
+  const write = (place) => {
     g.save();
-    g.translate(x, from[1] + slope * (x - from[0]));
+    g.translate(...place);
     g.rotate(Math.atan(slope));
     const written = text(limit.name, 0, -5, { align: "center", halo: true });
     g.restore();
     return written;
   };
-  [0.3, 0.15, 0.6, 0.45, 0.75].some(write);
+  const isAway = ([, y]) => Math.abs(y - frame.y) > 20; // from the bump
+  places.filter(isAway).some(write) || places.some(write);
 }
 
 /** The bump across: thick where contact is kept, with the critical speeds and those asked for. */
