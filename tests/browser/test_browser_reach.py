@@ -231,7 +231,7 @@ def out_of_sight(tab, nth, names):
             const part = box.querySelector(name);
             const { left, right, top, bottom } = part.getBoundingClientRect(),
               there = document.elementFromPoint((left + right) / 2, top + 1);
-            const isInside = left > -1 && top > -1 && right < innerWidth + 1 && bottom < innerHeight + 1;
+            const isInside = Math.min(left, top, innerWidth - right, innerHeight - bottom) > -1;
             return !isInside || !part.contains(there);
           });
         }""",
