@@ -27,7 +27,13 @@ FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
-FILES = {"explorer.js": page_script, "explorer.css": page_style}
+WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
+WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
+FILES = {
+    "explorer.js": page_script,
+    "explorer.css": page_style,
+    "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
+}
 
 
 def write_files(app):
@@ -45,9 +51,12 @@ def add_files(app, page, template, context, doctree):
     if doctree is None:
         return
     NbMetadataCollector.get_js_files(app.env, page).clear()
-    if any(BOX in node.astext() for node in doctree.findall(nodes.raw)):
+    boxes = [node.astext() for node in doctree.findall(nodes.raw) if BOX in node.astext()]
+    if boxes:
         app.add_js_file("explorer.js", loading_method="defer")
         app.add_css_file("explorer.css")
+    if any(WIDE in box for box in boxes):
+        app.add_css_file("wide.css")
 
 
 def keep_pages(app, page, source):
@@ -120,14 +129,20 @@ class ExplorerLinks(SphinxPostTransform):
         return None, None
 
 
-class CodeBelow(SphinxPostTransform):
-    """The folded code of an explorer stands below it: what one came for is in sight at once."""
+class ExplorerCells(SphinxPostTransform):
+    """The cells of explorers: their folded code stands below, so that the picture is in sight at once.
+
+    Their output has a class of its own, for the style sheet.
+    """
 
     default_priority = 200  # once MyST-NB has folded it
     formats = ("html",)
 
     def run(self, **kwargs):
-        """Visit the folds of one page."""
+        """Visit the cells of one page."""
+        for box in self.document.findall(nodes.raw):
+            if BOX in box.astext():
+                box["classes"].append("se-output")
         for fold in list(self.document.findall(HideCodeCellNode)):
             cell = fold.parent
             if any(BOX in node.astext() for node in cell.findall(nodes.raw)):
@@ -138,7 +153,7 @@ class CodeBelow(SphinxPostTransform):
 def setup(app):
     """Connect to Sphinx."""
     app.add_directive("explorer", ExplorerDirective)
-    app.add_post_transform(CodeBelow)
+    app.add_post_transform(ExplorerCells)
     app.add_post_transform(ExplorerLinks)
     app.connect("builder-inited", write_files)
     app.connect("source-read", keep_pages, priority=110)  # once they have been run
