@@ -1,10 +1,10 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
-An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`). Pages
-that hold one get its script and style sheet; the widgets, which only a kernel's front end could
-use, and their state are left out. The directive ``{explorer} name`` shows an explorer that a
-notebook has named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of
-their page, or of the page they point to.
+An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`), a
+prediction's its axes. Pages that hold one get its script and the style sheet; the widgets, which
+only a kernel's front end could use, and their state are left out. The directive ``{explorer}
+name`` shows an explorer that a notebook has named, on another page, and links like
+``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the page they point to.
 """
 
 import json
@@ -18,11 +18,12 @@ from sphinx.addnodes import pending_xref
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 
-from suspension.explorer import page_script, page_style
+from suspension.explorer import page_script, page_style, prediction_script
 
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
-BOX = "suspension-explorer-box"
+EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
+BOX = re.compile(f"{EXPLORER}|{PREDICTION}")
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
@@ -31,6 +32,7 @@ WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whol
 WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
+    "prediction.js": prediction_script,
     "explorer.css": page_style,
     "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
 }
@@ -47,15 +49,17 @@ def write_files(app):
 
 
 def add_files(app, page, template, context, doctree):
-    """Load script and style on the pages with an explorer; the widgets' state on none."""
+    """Load scripts and style on the pages that need them; the widgets' state on none."""
     if doctree is None:
         return
     NbMetadataCollector.get_js_files(app.env, page).clear()
-    boxes = [node.astext() for node in doctree.findall(nodes.raw) if BOX in node.astext()]
-    if boxes:
-        app.add_js_file("explorer.js", loading_method="defer")
+    html = "".join(node.astext() for node in doctree.findall(nodes.raw))
+    if BOX.search(html):
         app.add_css_file("explorer.css")
-    if any(WIDE in box for box in boxes):
+    for mark, script in ((EXPLORER, "explorer.js"), (PREDICTION, "prediction.js")):
+        if mark in html:
+            app.add_js_file(script, loading_method="defer")
+    if WIDE in html:
         app.add_css_file("wide.css")
 
 
@@ -69,7 +73,7 @@ def keep_pages(app, page, source):
             shown = [out for out in cell["outputs"] if WIDGET not in out.get("data", {})]
             for data in (out.get("data", {}) for out in shown):
                 html = "".join(data.get("text/html", ""))
-                if BOX in html:
+                if BOX.search(html):
                     data.pop("image/svg+xml", None)
                     data["text/html"] = FOR_NOTEBOOKS.sub("", html)
             cell["outputs"] = shown
@@ -130,7 +134,7 @@ class ExplorerLinks(SphinxPostTransform):
 
 
 class ExplorerCells(SphinxPostTransform):
-    """The cells of explorers: their folded code stands below, so that the picture is in sight at once.
+    """The cells of explorers: their folded code stands below, for the picture to be in sight.
 
     Their output has a class of its own, for the style sheet.
     """
@@ -141,11 +145,11 @@ class ExplorerCells(SphinxPostTransform):
     def run(self, **kwargs):
         """Visit the cells of one page."""
         for box in self.document.findall(nodes.raw):
-            if BOX in box.astext():
+            if BOX.search(box.astext()):
                 box["classes"].append("se-output")
         for fold in list(self.document.findall(HideCodeCellNode)):
             cell = fold.parent
-            if any(BOX in node.astext() for node in cell.findall(nodes.raw)):
+            if any(EXPLORER in node.astext() for node in cell.findall(nodes.raw)):
                 cell.remove(fold)
                 cell.append(fold)
 
