@@ -5,7 +5,9 @@ const CLEAR = 10; // pixels sideways, and at least twice as many as up or down
 
 /** Whether a way in pixels is a pull, and no scrolling, no tremor. */
 export const isPull = (dx, dy, held = false) =>
-  held ? Math.abs(dx) > 4 && Math.abs(dx) > Math.abs(dy) : Math.abs(dx) > CLEAR && Math.abs(dx) > 2 * Math.abs(dy);
+  held
+    ? Math.abs(dx) > 4 && Math.abs(dx) > Math.abs(dy)
+    : Math.abs(dx) > CLEAR && Math.abs(dx) > 2 * Math.abs(dy);
 
 /**
  * Let fingers move the sliders of a box so: their `input` events are held back until a pull, and then
@@ -21,7 +23,16 @@ export function tameSliders(box) {
       travel = width - HANDLE,
       shown = target.value,
       held = Math.abs(clientX - left - HANDLE / 2 - shown * travel) < HANDLE;
-    touch = { slider: target, x: clientX, y: clientY, travel, place: Number(shown), held, shown, state: "waits" };
+    touch = {
+      slider: target,
+      x: clientX,
+      y: clientY,
+      travel,
+      place: Number(shown),
+      held,
+      shown,
+      state: "waits",
+    };
   };
   const move = ({ pointerType, clientX, clientY }) => {
     if (!touch || pointerType !== "touch" || touch.state === "scrolls") return;
