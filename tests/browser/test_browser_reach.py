@@ -295,26 +295,47 @@ def test_full_screen_uses_the_window_and_says_how_to_leave(browser, folder, widt
     tab.context.close()
 
 
-def test_forced_colours_keep_the_bands_and_the_marks(browser, folder):
-    tab = show(browser, f"{folder.as_uri()}/whole.html", forced_colors="active")
-    control = tab.locator("[data-trait=v]")
+def marks_and_bands(tab, part, below):
+    """The critical speeds on a slider, where its bands change, and its marks above and below."""
     critical = tab.locator(".suspension-explorer").evaluate("root => root.trajectory().critical")
-    box = control.locator("input[type=range]").bounding_box()
+    box = part.bounding_box()
     image = Image.open(io.BytesIO(tab.screenshot(clip=box))).convert("RGB")
     pixels = np.asarray(image, dtype=int)
-    middle, places = (
-        pixels.shape[0] // 2,
-        10 + (box["width"] - 20) * np.log(np.array(critical) / 0.1) / np.log(250),
-    )
-    band = pixels[middle + 13]
-    changes = np.flatnonzero(np.abs(np.diff(band, axis=0)).sum(axis=1) > 60) + 1
-    assert all(np.abs(changes - place).min() < 2 for place in places)
-    for row, count in ((2, len(critical)), (-3, len(problem.SPEEDS))):
-        marks = np.abs(pixels[row] - pixels[row, 0]).sum(axis=1) > 200
-        assert len(np.flatnonzero(np.diff(marks.astype(int)) > 0)) == count
-    for name in ("k", "c"):  # the robot's own value, of which this is the background
-        mark = "e => getComputedStyle(e, '::after').backgroundColor !== getComputedStyle(e).color"
-        assert not tab.locator(f"[data-trait={name}]").evaluate(mark)
+    changes = np.abs(np.diff(pixels[pixels.shape[0] // 2 + below], axis=0)).sum(axis=1) > 60
+    marks = []
+    for row in (2, -3):
+        dark = np.abs(pixels[row] - pixels[row, 0]).sum(axis=1) > 200
+        marks.append(len(np.flatnonzero(np.diff(dark.astype(int)) > 0)))
+    places = 10 + (box["width"] - 20) * np.log(np.array(critical) / 0.1) / np.log(250)
+    return places, np.flatnonzero(changes) + 1, marks
+
+
+def test_forced_colours_keep_the_bands_and_the_marks(browser, folder):
+    tab = show(browser, f"{folder.as_uri()}/whole.html", forced_colors="active")
+    track = tab.locator(TRACK.format("v"))
+    places, changes, marks = marks_and_bands(tab, track, below=13)
+    assert len(places) == 3 and all(np.abs(changes - place).min() < 2 for place in places)
+    assert marks == [len(places), len(problem.SPEEDS)]
+    for name in ("k", "c"):  # the robot's own value is marked by this background
+        mark = "e => getComputedStyle(e, '::after').backgroundColor === getComputedStyle(e).color"
+        assert tab.locator(f"[data-trait={name}]").evaluate(mark)
+    tab.context.close()
+
+
+def test_in_jupyterlab_a_strip_shows_the_bands_that_its_slider_has_not(browser, folder):
+    tab = show(browser, f"{folder.as_uri()}/whole.html")
+    tab.evaluate("document.body.className = 'suspension-explorer-frame'")  # as the widget has it
+    assert not tab.locator(TRACK.format("v")).is_visible()
+    control = tab.locator("[data-trait=v]")
+    height = control.bounding_box()["height"]
+    number = tab.locator("[data-trait=v] .se-number").bounding_box()["height"]
+    assert 20 < height - number < 32  # a strip below the number
+    below = round(number + (height - number) / 2 - height / 2)
+    places, changes, _ = marks_and_bands(tab, control, below)
+    at = tab.locator(TRACK.format("v")).input_value()
+    width = control.bounding_box()["width"]
+    for place in (*places, 8 + float(at) * (width - 20)):
+        assert np.abs(changes - place).min() < 2
     tab.context.close()
 
 

@@ -126,6 +126,7 @@ function bindSlider(control, model, facts, follow) {
     const value = model.get(trait),
       shown = plain(value * units, 12);
     slider.value = scale.toPlace(value);
+    control.style.setProperty("--se-at", scale.toPlace(value)); // where only a strip shows it
     slider.setAttribute("aria-valuetext", `${shown} ${unit}${value === own ? ", the robot's own" : ""}`);
     if (document.activeElement !== number) {
       number.value = plain(value * units, 5);
