@@ -32,6 +32,7 @@ export function makeFrame(el, facts, view) {
     bar: make(root, "div", "se-bar"),
     tools: make(root, "div", "se-tools"),
     details: make(root, "p", "se-details"),
+    key: make(root, "p", "se-key"),
   };
   frame.canvases = facts.panels.map((name) => make(frame.stage, "canvas", `se-${name}`, { role: "img" }));
   return frame;

@@ -2,14 +2,15 @@
 
 import { PANELS } from "./panels.js";
 import { begin } from "./pen.js";
-import { CLOSE } from "./words.js";
+import { racePanel } from "./race.js";
 
+const ALL = { ...PANELS, race: racePanel };
 const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "doubt", "paper"];
 
 /** `told` is called after a picture was drawn: with the options, and whether more than the moment changed. */
 export function makePainter({ root, canvases }, names, shown, told) {
   const panels = names.map((name, i) => ({
-    ...PANELS[name],
+    ...ALL[name],
     canvas: canvases[i],
     cache: document.createElement("canvas"),
     size: [0, 0],
@@ -32,9 +33,10 @@ export function makePainter({ root, canvases }, names, shown, told) {
     if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
     if (!painter.colours) readColours();
     const options = shown.options(),
-      { now, motion } = options;
-    const apart = scene.flight.events.length > 0 || (motion === "flying" && !(scene.run?.error < CLOSE));
-    options.ghost = apart ? (motion === "flying" ? now.linear : now.flying) : null;
+      { now, motion, pinned } = options;
+    if (pinned) options.ghost = { scene: pinned.scene, state: pinned.stateAt(now.X) };
+    else if (scene.flight.events.length)
+      options.ghost = { scene, state: motion === "flying" ? now.linear : now.flying };
     for (const panel of panels) paintPanel(panel, scene, options);
     told(options, redraw);
     redraw = Boolean(options.map) && options.map.work(); // a map grows over several frames

@@ -3,15 +3,23 @@
 
 import { makeMap } from "./map.js";
 import { judge } from "./model.js";
-import { makeScenes, momentOf } from "./scene.js";
+import { extremes, makeRaces, makeScenes, momentAt, momentOf } from "./scene.js";
 import { numbersOf, SETTINGS } from "./state.js";
-import { describePinned } from "./words.js";
+import { describe, describePinned } from "./words.js";
 
 export function makeShown(data, model) {
-  const sceneAt = makeScenes(data);
+  const sceneAt = (data.lanes ? makeRaces : makeScenes)(data);
   let scene = null,
     stale = true,
-    map = null;
+    map = null,
+    pinned = null;
+  const currentPin = () => {
+    const pin = model.get("pin"),
+      of = JSON.stringify(pin);
+    if (!pin?.v) return null;
+    if (pinned?.of !== of) pinned = { of, ...pinOf(makeScenes(data)(pin), pin.motion) };
+    return pinned;
+  };
   const currentMap = () => {
     const { c, height, sigma } = scene.settings,
       of = [c, height, sigma].join();
@@ -19,8 +27,6 @@ export function makeShown(data, model) {
     return map.picture;
   };
   const shown = {
-    pinned: null,
-    mapped: false,
     held: null,
     looks: 0, // counts changes of what is drawn that are no changes of the settings
     isComputed: () => scene !== null,
@@ -37,25 +43,30 @@ export function makeShown(data, model) {
       scene,
       now: momentOf(scene, model.get("time")),
       motion: model.get("motion"),
-      pinned: shown.pinned,
+      pinned: currentPin(),
       held: shown.held,
-      map: shown.mapped && currentMap(),
+      map: model.get("mapped") && currentMap(),
     }),
-    /** What is kept of the run to compare others with. */
-    snapshot(headline) {
-      const { run, flight, v, curve, robot, dt, scheme, settings } = shown.scene(),
-        motion = run ? model.get("motion") : "flying",
-        kept = motion === "flying" ? flight : run;
-      return {
-        v,
-        dt: kept.dt,
-        verdict: judge(kept),
-        words: describePinned(settings, scheme, motion, headline),
-        N: kept.N.map((N) => N.slice(0, kept.J + 1)),
-        least: curve.least.map((N) => N.slice()),
-        z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
-      };
-    },
   };
   return shown;
+}
+
+/** What is shown of a pinned run: it is computed once, for its arrays are its own. */
+function pinOf(scene, wanted) {
+  const { run, flight, v, curve, robot, dt } = scene,
+    motion = run ? wanted : "flying",
+    kept = motion === "flying" ? flight : run;
+  return {
+    scene,
+    v,
+    dt: kept.dt,
+    verdict: judge(kept),
+    exact: extremes(scene, motion === "flying"),
+    words: describePinned(scene, motion, describe(scene, motion).headline),
+    N: kept.N.map((N) => N.slice(0, kept.J + 1)),
+    least: curve.least,
+    z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
+    /** Its state where the centre of mass is at X. */
+    stateAt: (X) => momentAt(scene, Math.min(X / v, scene.end))[motion],
+  };
 }
