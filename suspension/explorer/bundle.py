@@ -16,6 +16,8 @@ IMPORT = re.compile(
 EXPORT = re.compile(rf"^export (?=(?:function|const|class) ({NAME})\b)", re.MULTILINE)
 # What is left of these words is something else, like `export * from` or `import(..)`.
 OTHER = re.compile(r"^\s*(?:import|export)\b.*|\bimport\s*[(.].*", re.MULTILINE)
+# What only somebody who reads the modules needs: lines that are a comment, and the indentation.
+IDLE = re.compile(r"^\s*(?://.*|/\*\*.*|\*/?(?: .*)?)\n|^[ ]+", re.MULTILINE)
 
 
 def bundle(folder, entry):
@@ -55,7 +57,7 @@ def bundle(folder, entry):
             unknown = set(re.findall(NAME, names)) - set(exported[other])
             if unknown:
                 raise ValueError(f"{module}.js imports {sorted(unknown)}, not in {other}.js")
-        text = IMPORT.sub(r"const { \1 } = $\2;", text)
+        text = IDLE.sub("", IMPORT.sub(r"const { \1 } = $\2;", text))
         exported[module] = EXPORT.findall(text)
         _refuse_others(module, EXPORT.sub("", text), is_entry=module == entry)
         if module != entry:

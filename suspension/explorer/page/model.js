@@ -635,7 +635,8 @@ export function airborne({ run, flight }, motion, t) {
     if (motion === "flying") {
       const own = flight.events.filter(({ wheel }) => wheel === i);
       own.forEach((event, n) => {
-        if (event.kind === "lift-off" && event.t <= t) found.push([i, event.t, Math.min(own[n + 1]?.t ?? t, t)]);
+        if (event.kind === "lift-off" && event.t <= t)
+          found.push([i, event.t, Math.min(own[n + 1]?.t ?? t, t)]);
       });
       continue;
     }

@@ -50,7 +50,8 @@ function begin() {
     const [index, settings] = hash.startsWith(PREFIX) ? readHash(hash.slice(PREFIX.length)) : [0, null];
     quiet = true;
     explorers.forEach((view, i) => {
-      if (i === index && settings) view.apply({ ...(isPhrase ? view.run : view.initial), time: null, ...settings });
+      if (i === index && settings)
+        view.apply({ ...(isPhrase ? view.run : view.initial), time: null, ...settings });
       else if (!settings) view.apply(view.initial);
     });
     quiet = false;

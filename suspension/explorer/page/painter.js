@@ -32,11 +32,7 @@ export function makePainter({ root, canvases }, names, shown, told) {
     const scene = shown.scene();
     if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
     if (!painter.colours) readColours();
-    const options = shown.options(),
-      { now, motion, pinned } = options;
-    if (pinned) options.ghost = { scene: pinned.scene, state: pinned.stateAt(now.X) };
-    else if (scene.flight.events.length)
-      options.ghost = { scene, state: motion === "flying" ? now.linear : now.flying };
+    const options = shown.options();
     for (const panel of panels) paintPanel(panel, scene, options);
     told(options, redraw);
     redraw = Boolean(options.map) && options.map.work(); // a map grows over several frames

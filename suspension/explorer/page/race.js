@@ -54,8 +54,11 @@ export const racePanel = {
     const { scale } = this,
       { lanes, data } = scene,
       start = 1.3 * data.wheels[0];
-    const nearest = lanes.reduce((best, lane, i) =>
-      Math.abs((now.lanes[i].X - start) * scale - x) < Math.abs((best.X - start) * scale - x) ? { lane, X: now.lanes[i].X } : best,
+    const nearest = lanes.reduce(
+      (best, lane, i) =>
+        Math.abs((now.lanes[i].X - start) * scale - x) < Math.abs((best.X - start) * scale - x)
+          ? { lane, X: now.lanes[i].X }
+          : best,
       { lane: lanes[0], X: now.lanes[0].X },
     );
     const to = (x2) => {

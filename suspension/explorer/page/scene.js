@@ -151,7 +151,10 @@ export function fractionAt(scene, t) {
   const stops = stagesOf(scene),
     found = stops.findIndex((stop) => t <= stop),
     stage = found < 0 ? stops.length - 1 : Math.max(found, 1);
-  return Math.min((stage - 1 + (t - stops[stage - 1]) / (stops[stage] - stops[stage - 1])) / (stops.length - 1), 1);
+  return Math.min(
+    (stage - 1 + (t - stops[stage - 1]) / (stops[stage] - stops[stage - 1])) / (stops.length - 1),
+    1,
+  );
 }
 
 const stagesOf = ({ lanes, end }) => [

@@ -39,14 +39,25 @@ export function makeShown(data, model) {
     forget() {
       stale = true;
     },
-    options: () => ({
-      scene,
-      now: momentOf(scene, model.get("time")),
-      motion: model.get("motion"),
-      pinned: currentPin(),
-      held: shown.held,
-      map: model.get("mapped") && currentMap(),
-    }),
+    options() {
+      const now = momentOf(scene, model.get("time")),
+        motion = model.get("motion"),
+        pinned = currentPin();
+      const apart = scene.flight.events.length > 0,
+        other = motion === "flying" ? now.linear : now.flying;
+      return {
+        scene,
+        now,
+        motion,
+        pinned,
+        // The robot that is drawn faintly behind: of the pinned run, or of the other motion.
+        ghost: pinned
+          ? { scene: pinned.scene, state: pinned.stateAt(now.X) }
+          : apart && { scene, state: other },
+        held: shown.held,
+        map: model.get("mapped") && currentMap(),
+      };
+    },
   };
   return shown;
 }

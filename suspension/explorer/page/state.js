@@ -114,7 +114,8 @@ export function readHash(text) {
 function readSetting(name, text) {
   if (NUMBERS.includes(name)) return readNumber(text) ?? undefined;
   if (name === "scheme") return text;
-  return CHOICES[name]?.find((choice) => String(choice) === text);
+  if (!Object.hasOwn(CHOICES, name)) return undefined;
+  return CHOICES[name].find((choice) => String(choice) === text);
 }
 
 /** A number with a decimal point or comma, a true or a typed minus; null if it is none. */

@@ -7,7 +7,8 @@ import { render } from "./view.js";
 export default {
   render({ model, el }) {
     const { compact, chart, lanes } = model.get("facts"),
-      kind = (compact ? " se-compact" : "") + (chart ? " se-chart-only" : "") + (lanes ? " se-race-only" : "");
+      kind =
+        (compact ? " se-compact" : "") + (chart ? " se-chart-only" : "") + (lanes ? " se-race-only" : "");
     const box = make(el, "div", `suspension-explorer-box se-page${kind}`);
     const layout = make(box, "div", "se-layout");
     make(layout, "div", "se-controls").innerHTML = model.get("controls");

@@ -134,9 +134,13 @@ function describeFlight(scene) {
     [tone, headline] = ["doubt", failed];
   } else if (isEdge(scene) && !(first && exactly && differ(first, exactly, dt))) {
     ({ tone, headline } = onEdge(scene));
-  } else if (differ(first, exactly, dt)) {
+  } else if (differ(first, exactly, dt) || times(flight.events) !== times(exactFlight.events)) {
     tone = "doubt";
-    const fault = !first ? "misses a lift-off" : exactly ? "finds another lift-off" : "finds a lift-off that is none";
+    const fault = !first
+      ? "misses a lift-off"
+      : exactly
+        ? "leaves the ground otherwise"
+        : "finds a lift-off that is none";
     headline = `This flight ${fault}. Exactly: ${story(exactFlight)}.`;
     details.unshift(`The flight says: ${story(flight)}.`);
   } else if (!first) {
@@ -180,7 +184,11 @@ export function laneWords(lane, motion, t) {
     off = [0, 1].filter((i) => airborne(lane, motion, t).some(([wheel]) => wheel === i)),
     which = off.length > 1 ? "both wheels" : `${WHEEL[off[0]]} wheel`;
   if (off.length)
-    return { name, words: `${which} ${motion === "flying" ? "off the ground" : "lost contact"}`, tone: "alarm" };
+    return {
+      name,
+      words: `${which} ${motion === "flying" ? "off the ground" : "lost contact"}`,
+      tone: "alarm",
+    };
   if (t < lane.end * (1 - 1e-9)) return { name, words: "" };
   return { name, words: "both wheels stayed on the ground", tone: "region" };
 }
@@ -201,15 +209,25 @@ function describeRace({ lanes }, motion, now) {
   if (arrived.length < lanes.length)
     return {
       tone: "open",
-      headline: parts.length ? `${parts.join("; ")}.` : "At which of these speeds does a wheel leave the ground?",
+      headline: parts.length
+        ? `${parts.join("; ")}.`
+        : "At which of these speeds does a wheel leave the ground?",
       details: [],
     };
-  return { tone: !lost.length ? "kept" : kept.length ? "open" : "lost", headline: `${parts.join("; ")}.`, details: [] };
+  return {
+    tone: !lost.length ? "kept" : kept.length ? "open" : "lost",
+    headline: `${parts.join("; ")}.`,
+    details: [],
+  };
 }
 
 /** What the faint robot is. */
 export const ghostWords = (motion, pinned) =>
-  pinned ? "faint: the pinned run" : motion === "flying" ? "faint: wheels held down (linear)" : "faint: wheels free to lift";
+  pinned
+    ? "faint: the pinned run"
+    : motion === "flying"
+      ? "faint: wheels held down (linear)"
+      : "faint: wheels free to lift";
 
 /** Two lines that tell what solid, faint, dots, ticks and bands are. */
 export function keyOf({ data, lanes, flight, run }, motion, pinned) {
@@ -230,7 +248,9 @@ export function keyOf({ data, lanes, flight, run }, motion, pinned) {
         ? "faint: the linear model, whose ground also pulls a wheel down"
         : "faint: the same robot, its wheels free to leave the ground"
       : "no wheel lifts, so that flying is the same";
-  const pale = data.compact ? "" : ` Broad and pale: the ${flying ? "linear forces, exact" : "exact forces"}.`;
+  const pale = data.compact
+    ? ""
+    : ` Broad and pale: the ${flying ? "linear forces, exact" : "exact forces"}.`;
   const dots =
     "Full dots, ticks above the slider: speeds where the verdict turns; open dots, ticks below: the speeds asked for; bands: contact kept or lost, by the linear model.";
   const air =
