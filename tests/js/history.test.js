@@ -102,9 +102,9 @@ test("one goes from event to event, both ways, to the start and to the end", () 
 test("the clock says how slow it goes, slower around a lift-off", () => {
   const scene = crossing(10, [{ wheel: 1, kind: "lift-off", t: 0.05 }]),
     events = eventsOf(scene, "flying");
-  assert.equal(slowing(events, 0.4), 4);
+  assert.equal(slowing(events, 0.4), 3);
   assert.ok(Math.abs(paceOf(scene, events, "fit", 0.1) - 64) < 1e-9); // 8 s for an eighth of a second
-  assert.ok(Math.abs(paceOf(scene, events, "fit", 0.4) - 256) < 1e-9);
+  assert.ok(Math.abs(paceOf(scene, events, "fit", 0.4) - 192) < 1e-9);
   assert.ok(Math.abs(paceOf(scene, events, "same", 0.1) - 8) < 1e-9);
   const slow = crossing(0.25);
   assert.ok(Math.abs(paceOf(slow, eventsOf(slow, "flying"), "same", 0.1) - 8) < 1e-9);

@@ -70,7 +70,7 @@ function tell(model, shown) {
   const scene = shown.scene(),
     options = shown.options(),
     { now, motion, pinned, map } = options;
-  while (map && map.work());
+  while (map?.work());
   const pictures = {};
   for (const name of facts.panels) {
     const canvas = makeCanvas(),
@@ -85,7 +85,7 @@ function tell(model, shown) {
     state,
     words: describe(scene, motion, now),
     key: keyOf(scene, motion, pinned),
-    pinned: pinned && pinned.words,
+    pinned: pinned?.words,
     texts: Object.fromEntries(Object.entries(pictures).map(([name, { texts }]) => [name, texts])),
     drawn: JSON.stringify(Object.values(pictures).map(({ drawn }) => drawn)),
     clock: describeMoment(now, motion),

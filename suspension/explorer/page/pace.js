@@ -4,15 +4,15 @@ import { fractionAt, timeAt } from "./scene.js";
 import { WHEEL } from "./words.js";
 
 export const SECONDS = 8; // one crossing, played, where nothing slows it
-const SLOWER = 4; // times, around a lift-off and a landing
-const AROUND = 0.015; // of the crossing, before and after
+const SLOWER = 3; // times, around a lift-off and a landing
+const AROUND = 0.01; // of the crossing, before and after
 const MOST = 12; // events of a wheel that are told one by one
 
 const kept = new WeakMap();
 
 /**
  * What happens on the way, in order: { at, words, turns }, a fraction of the crossing; `turns` where
- * a wheel leaves the ground or lands.
+ * a wheel leaves the ground or lands and the clock goes slower: that of a race is slow enough.
  */
 export function eventsOf(scene, motion) {
   const known = kept.get(scene);
@@ -22,7 +22,8 @@ export function eventsOf(scene, motion) {
   for (const lane of lanes) {
     const name = scene.lanes ? `${lane.v} m/s: ` : "";
     for (const { t, words, turns } of happenings(lane, motion))
-      if (t >= 0 && t <= lane.end) events.push({ at: fractionAt(scene, t), words: name + words, turns });
+      if (t >= 0 && t <= lane.end)
+        events.push({ at: fractionAt(scene, t), words: name + words, turns: turns && !scene.lanes });
   }
   events.push({ at: 0, words: "the start" }, { at: 1, words: "the end" });
   events.sort((a, b) => a.at - b.at);

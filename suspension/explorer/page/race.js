@@ -46,7 +46,7 @@ export const racePanel = {
       drawRobot(pen, lane, place, at[motion], false);
       const { name, words, tone } = laneWords(lane, motion, at.t);
       text(name, 0, i * height + 14, { colour: "ink", bold: true, halo: true });
-      text(words, 62, i * height + 14, { colour: tone ?? "soft", bold: Boolean(tone), halo: true });
+      text(words, 72, i * height + 14, { colour: tone ?? "soft", bold: Boolean(tone), halo: true });
     });
   },
   grab(x, _y, { scene, now }) {
