@@ -114,26 +114,28 @@ export function drawRobot(
   const hubs = p.map((value, i) => u[i] + Math.max(-value, 0) + r); // on the ground, else hanging
   // How high the body rides and how large a wheel is drawn, the model does not know.
   const ends = p.map((value, i) => Math.max(u[i] - value + ride, hubs[i] + 1.7 * r));
-  const at = data.wheels.map((offset) => px(X + offset));
+  const at = data.wheels.map((offset) => px(X + offset)),
+    z = clamp((at[1] - at[0]) / 120, 0.4, 1); // springs and dampers of a small robot are small
   const body = ends.map((end, i) => [at[i], py(end)]);
   g.save();
   if (faint) g.globalAlpha = 0.3;
   body.forEach(([x, top], i) => {
     const hub = py(hubs[i]);
-    stroke(WHEEL[i], 1.8);
+    stroke(WHEEL[i], 1.8 * z);
     const coils = Array.from({ length: 13 }, (_, k) => [
-      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6),
+      x + z * (k < 2 || k > 10 ? -6 : k % 2 ? 0 : -12),
       hub + ((top - hub) * k) / 12,
     ]);
     line(...coils.flat());
     const middle = (hub + top) / 2; // the damper: a rod in a cup
-    line(x + 9, top, x + 9, middle - 2);
-    line(x + 5, middle - 2, x + 13, middle - 2);
-    line(x + 4, middle - 9, x + 4, middle + 6, x + 14, middle + 6, x + 14, middle - 9);
-    line(x + 9, middle + 6, x + 9, hub);
-    line(x - 6, hub, x + 9, hub);
+    line(x + 9 * z, top, x + 9 * z, middle - 2 * z);
+    line(x + 5 * z, middle - 2 * z, x + 13 * z, middle - 2 * z);
+    const [edge, low, other, high] = [x + 4 * z, middle + 6 * z, x + 14 * z, middle - 9 * z];
+    line(edge, high, edge, low, other, low, other, high);
+    line(x + 9 * z, low, x + 9 * z, hub);
+    line(x - 6 * z, hub, x + 9 * z, hub);
     g.save();
-    dot(x, hub, r * scale, faint ? null : "paper", faint || N[i] > 0 ? WHEEL[i] : "alarm", 3);
+    dot(x, hub, r * scale, faint ? null : "paper", faint || N[i] > 0 ? WHEEL[i] : "alarm", 3 * z);
     g.restore();
     if (faint || !arrows) return;
     const foot = py(u[i]),
@@ -146,7 +148,7 @@ export function drawRobot(
   });
   if (faint) g.globalAlpha = 0.3;
   g.lineCap = "round";
-  stroke("ink", 8);
+  stroke("ink", 8 * z);
   line(...body.flat());
   g.lineCap = "butt";
   if (!faint) {
@@ -154,10 +156,10 @@ export function drawRobot(
     dot(
       body[0][0] + share * (body[1][0] - body[0][0]),
       body[0][1] + share * (body[1][1] - body[0][1]),
-      5,
+      5 * z,
       "paper",
       "ink",
-      2,
+      2 * z,
     );
   }
   g.restore();

@@ -14,7 +14,7 @@ export const racePanel = {
       { data, lanes } = scene,
       [rear, front] = data.wheels,
       length = front - rear;
-    const [start, end] = [1.3 * rear, data.distance + 1.3 * front],
+    const [start, end] = [1.4 * rear, data.distance + 1.4 * front],
       scale = w / (end - start),
       height = h / lanes.length;
     this.scale = scale;
@@ -53,7 +53,7 @@ export const racePanel = {
     // The robot that is nearest to the pointer is taken along.
     const { scale } = this,
       { lanes, data } = scene,
-      start = 1.3 * data.wheels[0];
+      start = 1.4 * data.wheels[0];
     const nearest = lanes.reduce(
       (best, lane, i) =>
         Math.abs((now.lanes[i].X - start) * scale - x) < Math.abs((best.X - start) * scale - x)
