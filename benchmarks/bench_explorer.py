@@ -82,12 +82,12 @@ def report(steps, moves, budgets=("", "", "")):
 def in_jupyterlab(browser):
     """The same sliders in JupyterLab, with a kernel behind them."""
     with tempfile.TemporaryDirectory() as folder, serve(Path(folder)) as address:
-        shutil.copy(ROOT / "notebooks/10-drive.ipynb", folder)
+        shutil.copy(ROOT / "notebooks/12-drive.ipynb", folder)
         tab = browser.new_page(viewport={"width": 1280, "height": 900})
         tab.add_init_script(WATCH)
-        run_all(tab, address, "10-drive.ipynb")
+        run_all(tab, address, "12-drive.ipynb")
         tab.wait_for_timeout(5000)
-        print("10-drive in JupyterLab")
+        print("12-drive in JupyterLab")
         report(*control_to_picture(tab))
         tab.close()
 

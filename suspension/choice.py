@@ -152,7 +152,7 @@ class Ride(NamedTuple):
 
 
 class Findings(NamedTuple):
-    """What Part IX found.
+    """What Part X found.
 
     Attributes
     ----------
@@ -164,7 +164,6 @@ class Findings(NamedTuple):
         Of the springs on which the robot rests within the measured displacements.
     candidates : dict of str to Candidate
         The present suspension, and those of the choices that are others.
-    rides : sequence of Ride
     """
 
     least: Choice | None
@@ -173,7 +172,6 @@ class Findings(NamedTuple):
     reserve: float
     excluded: Exclusion
     candidates: dict
-    rides: tuple
 
 
 def fitted_with(robot, k, c):

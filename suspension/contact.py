@@ -215,7 +215,7 @@ def regimes_between(margin_at, edges, unit="m/s"):
     """
     _checks.function("margin_at", margin_at, "margin_at(v) -> float")
     edges = _checks.array("edges", edges, (None,))
-    edges = Regimes(edges, np.zeros(max(0, len(edges) - 1))).edges  # checked
+    edges = Regimes(edges, np.zeros_like(edges[1:])).edges  # checked
     lost = np.array([is_lost(margin_at(v)) for v in np.sqrt(edges[1:] * edges[:-1])], dtype=bool)
     turns = np.append(True, lost[1:] != lost[:-1])
     return Regimes(np.append(edges[:-1][turns], edges[-1:]), lost[turns], unit)

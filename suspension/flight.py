@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import DOP853, OdeSolution
 
 from suspension import _checks
-from suspension.road import Road, road_input
+from suspension.road import Road, profile, road_input
 from suspension.robot import Robot
 from suspension.simulation import as_frame
 
@@ -201,6 +201,7 @@ def fly(
         resolution = getattr(road, "resolution", 1e-3)
     max_step = _longest_step(robot, v, tfinal, _checks.positive("resolution", resolution))
     stops = _stops(robot, road, v, tfinal)
+    road_input(robot, road, v, stops[0] * np.array([0.25, 0.75]))  # answers in arrays
 
     grid = np.linspace(0.0, tfinal, samples)
     relaxes = (robot.c > 0) & (wheel == "relaxes")
@@ -301,6 +302,7 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0, end=None):
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
     start = _checks.number("start", start)
+    profile(road, robot.arms)  # answers in arrays
     sides = () if end is None else (start, _checks.number("end", end, "> start", start.__lt__))
     if pressing is not None:
         pressing = _checks.array("pressing", pressing, (2,)).astype(bool)
@@ -320,10 +322,11 @@ def _spring_forces(robot, road, first=-np.inf, last=np.inf):
     """Return ``springs(w, t, v) -> p, f``: compressions, m, and Eq. 5, N, shape (2, n) or (2,).
 
     With kinks at the times `first` and `last` the road is asked between them only: whatever it
-    says on a kink itself, both ends of a leg belong to it.
+    says on a kink itself, both ends of a leg belong to it. Who calls this has had the road's
+    answer checked once; here it has to be finite, for all its checks take as long as a bump itself.
     """
-    still, one = np.zeros(2), np.ones(2)
-    C = np.vstack([-np.column_stack([one, still, robot.arms, still]), robot.C])
+    arms, still, one = robot.arms, np.zeros(2), np.ones(2)
+    C = np.vstack([-np.column_stack([one, still, arms, still]), robot.C])
     D = np.vstack([np.eye(2, 4), robot.D])
     one_sided = len(getattr(road, "kinks", ())) > 0
 
@@ -331,7 +334,12 @@ def _spring_forces(robot, road, first=-np.inf, last=np.inf):
         if one_sided and v:
             beside = BESIDE * (1 / abs(v) + np.abs(t))
             t = np.clip(t, first + beside, last - beside)
-        both = C @ w + D @ road_input(robot, road, v, t)
+        x = np.add.outer(arms, v * t)
+        H, dHdx = road(x.ravel())
+        u = np.concatenate([H, np.multiply(v, dHdx)]).reshape(4, *x.shape[1:])
+        if not np.isfinite(u).all():
+            road_input(robot, road, v, t)  # says where it was
+        both = C @ w + D @ u
         return both[:2], both[2:]
 
     return springs

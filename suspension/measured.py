@@ -13,15 +13,16 @@ from scipy import stats
 from suspension import _checks
 from suspension.spring_law import SpringLaw, one_law
 from suspension.springs import SpringFit
-from suspension.sweep import drive
+from suspension.sweep import Drive, drive
 
 __all__ = [
-    "Family",
+    "Findings",
     "Share",
     "Study",
     "follow_speed",
     "joint_draws",
     "same_speed",
+    "surviving",
     "zero_speeds",
     "zero_stops",
 ]
@@ -207,13 +208,12 @@ class Share(NamedTuple):
 
     Attributes
     ----------
-    found : float
-        In how many it is lost: a mean over laws if several laws had the same draws, which are then
-        counted once.
+    found : int
+        In how many it is lost.
     n : int
     """
 
-    found: float
+    found: int
     n: int
 
     @property
@@ -242,28 +242,40 @@ class Share(NamedTuple):
         return False if self.high <= SURE else None
 
 
-class Family(NamedTuple):
-    """A critical speed that is the same on several laws, m/s, and where the draws have it.
+class Findings(NamedTuple):
+    """What one law says, at the estimates and for draws of the coefficients.
 
     Attributes
     ----------
-    speed : float
-        On the first of these laws.
-    laws : tuple of str
-    followed : ndarray, shape (all laws, draws)
-        nan where it was not found, and for a law that does not have it.
+    run : Drive
+        At the asked speeds, on a ground that only pushes.
+    drawn : Drive
+        The same for the draws: shape (draws, speeds).
+    critical : array_like
+        Critical speeds, m/s.
+    followed : sequence of ndarray
+        Where each of these goes with the coefficients (`follow_speed`), m/s.
     """
 
-    speed: float
-    laws: tuple
-    followed: np.ndarray
+    run: Drive
+    drawn: Drive
+    critical: np.ndarray
+    followed: list
+
+    def share(self, i):
+        """The draws that lose contact at the i-th speed."""
+        kept = self.drawn.kept[:, i]
+        return Share(int(np.sum(~kept)), kept.size)
+
+    def margins(self, i):
+        """95 % interval of the margin at the i-th speed, N; None if some draws lose contact."""
+        kept, margins = self.drawn.kept[:, i], self.drawn.margin[:, i]
+        return np.quantile(margins, [0.025, 0.975]) if kept.all() else None
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What several laws say of the asked speeds, at the estimates and for draws of coefficients.
-
-    Each dict has the laws' names as keys; the first is the line.
+    """What several laws say of the asked speeds. No law has a weight: all of them must agree.
 
     Parameters
     ----------
@@ -271,74 +283,56 @@ class Study:
         Speeds, m/s.
     delta_max : float
         Largest displacement that was measured, m.
-    runs : dict of str to Drive
-        At the asked speeds, on a ground that only pushes.
-    drawn : dict of str to Drive
-        The same for draws of the coefficients: shape (draws, speeds).
-    critical : dict of str to array_like
-        Critical speeds, m/s.
-    followed : dict of str to list of ndarray
-        Where each of these goes with the coefficients (`follow_speed`), m/s.
+    laws : dict of str to Findings
+        The first is the line.
     """
 
     asked: tuple
     delta_max: float
-    runs: dict
-    drawn: dict
-    critical: dict
-    followed: dict
+    laws: dict
 
     @property
-    def laws(self):
-        """The names of the laws."""
-        return tuple(self.runs)
-
-    def verdicts(self, name):
-        """Whether contact is lost on a law at the asked speeds, bool."""
-        return ~self.runs[name].kept
-
-    def share(self, i, name=None):
-        """The draws that lose contact at the i-th speed, on one law or, alike, on all."""
-        names = self.laws if name is None else (name,)
-        lost = np.array([~self.drawn[law].kept[:, i] for law in names])
-        return Share(float(lost.mean(axis=0).sum()), lost.shape[1])
+    def line(self):
+        """The findings of the first law."""
+        return next(iter(self.laws.values()))
 
     def signed(self, i):
-        """What all laws together say of the i-th speed: True (lost), False (kept) or None."""
-        return self.share(i).verdict
+        """True (lost) or False (kept) if every law leaves no doubt of it, else None."""
+        verdicts = {law.share(i).verdict for law in self.laws.values()}
+        return verdicts.pop() if len(verdicts) == 1 else None
 
-    def agreeing(self, i):
-        """How many laws say what the line says of the i-th speed, the line among them."""
-        return sum(self.verdicts(law)[i] == self.verdicts(self.laws[0])[i] for law in self.laws)
+    @property
+    def turned(self):
+        """At which asked speeds the laws disagree, at the estimates, bool."""
+        kept = [law.run.kept for law in self.laws.values()]
+        return np.any(kept != kept[0], axis=0)
 
-    def margins(self, i, name):
-        """95 % interval of the margin, N, at the i-th speed, None if some draws lose contact."""
-        margins = self.drawn[name].margin[:, i]
-        return np.quantile(margins, [0.025, 0.975]) if (margins > 0).all() else None
+    @property
+    def unsure(self):
+        """At which asked speeds the draws leave the verdict on some law open, bool."""
+        every = range(len(self.asked))
+        return np.array([None in {x.share(i).verdict for x in self.laws.values()} for i in every])
 
     @property
     def touched(self):
         """At which asked speeds a spring goes beyond `delta_max` on some law, bool."""
-        return np.max([run.compression for run in self.runs.values()], axis=0) > self.delta_max
+        return np.max([law.run.compression for law in self.laws.values()], axis=0) > self.delta_max
 
-    @property
-    def families(self):
-        """The critical speeds of all laws, those that are the same on several as one `Family`."""
-        draws = max((len(one) for many in self.followed.values() for one in many), default=0)
-        found = []
-        for law in self.laws:
-            for v, followed in zip(self.critical[law], self.followed[law]):
-                for speed, members in found:
-                    if law not in members and same_speed([speed], v) is not None:
-                        members[law] = followed
-                        break
-                else:
-                    found.append((v, {law: followed}))
-        none = np.full(draws, np.nan)
-        return [
-            Family(float(v), tuple(members), np.array([members.get(x, none) for x in self.laws]))
-            for v, members in sorted(found, key=lambda family: family[0])
-        ]
+
+def surviving(critical):
+    """The critical speeds of the first law, m/s, that are there on every other one, too.
+
+    Parameters
+    ----------
+    critical : sequence of array_like
+        Critical speeds on each law, m/s.
+
+    Returns
+    -------
+    speeds : list of float
+    """
+    first, *others = critical
+    return [v for v in first if all(same_speed(speeds, v) is not None for speeds in others)]
 
 
 def same_speed(speeds, v):

@@ -275,8 +275,13 @@ def cut_down(rule, text, characters, out):
 
 
 def is_asked_for(family, style, text):
-    """Whether some rule names a font; those of KaTeX say the weight and the style beside it."""
-    blocks = [block for block in re.findall(r"\{([^{}]*)\}", text) if family in block]
+    """Whether some rule names a font; those of KaTeX say the weight and the style beside it.
+
+    Text in a formula is set in its main font, which the rules for bold and italic text do not name.
+    """
+    rules = re.findall(r"([^{}]*)\{([^{}]*)\}", text)
+    of_text = ".katex .text" if family == "KaTeX_Main" else family
+    blocks = [block for chosen, block in rules if family in block or of_text in chosen]
     if "KaTeX" not in family:
         return bool(blocks)
     wanted = style["weight"] == "700", style["style"] == "italic"

@@ -22,7 +22,6 @@ from suspension.figures.measured import (
     plot_measured_margins,
     plot_measured_run,
     plot_spring_laws,
-    plot_stop_regions,
     plot_stop_stiffness,
 )
 from suspension.figures.regression import (
@@ -84,7 +83,6 @@ __all__ = [
     "plot_slopes",
     "plot_spring_laws",
     "plot_stability",
-    "plot_stop_regions",
     "plot_stop_stiffness",
     "plot_travel",
     "plot_vehicles",

@@ -1,4 +1,4 @@
-"""Figures of Part IX: the robot as a filter, maps for a choice of suspension, a rough road."""
+"""Figures of Parts IX to XI: the robot as a filter, maps for a choice, a rough road."""
 
 import numpy as np
 

@@ -1,16 +1,14 @@
-"""Figures of the measured spring: its law, what it does to the margin, and what a stop costs."""
+"""Figures of the measured spring: its law, its runs, and what a stop does to them."""
 
 import numpy as np
 
 from suspension.figures.speeds import speed_axis
-from suspension.figures.stability import draw_region
 from suspension.figures.style import LINES, MARKERS, axes_or_new
 
 __all__ = [
     "plot_measured_margins",
     "plot_measured_run",
     "plot_spring_laws",
-    "plot_stop_regions",
     "plot_stop_stiffness",
 ]
 
@@ -107,34 +105,6 @@ def plot_measured_run(runs, delta_max, axes):
         ax.set(xlabel="position $X$ (m)")
     axes[0].legend()
     return axes
-
-
-def plot_stop_regions(scheme, eigenvalues, dts, window, ax=None):
-    """The region of absolute stability with the eigenvalues of several laws at several steps.
-
-    Parameters
-    ----------
-    scheme : Scheme
-    eigenvalues : dict of str to array_like, shape (4,)
-        1/s, for each law.
-    dts : sequence of float
-        Time steps, s.
-    window : tuple
-        Left, right, bottom and top of the picture.
-    """
-    ax = axes_or_new(ax)
-    draw_region(ax, scheme, window)
-    for k, dt in enumerate(dts):
-        for i, (name, values) in enumerate(eigenvalues.items()):
-            verdict = "stable" if scheme.is_stable(values, dt) else "unstable"
-            z = np.asarray(values) * dt
-            style = {"color": f"C{i + 1}", "mfc": "none", "mew": 1.4, "ms": 6 + 2 * (k == 0)}
-            label = rf"{name}, $\Delta t = {dt:g}$ s: {verdict}"
-            ax.plot(z.real, z.imag, MARKERS[3 * k + i], label=label, **style)
-    ax.set(aspect="equal", title=scheme.name, xlabel=r"Re $z$", ylabel=r"Im $z$")
-    ax.set(xlim=window[:2], ylim=window[2:])
-    ax.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
-    return ax
 
 
 def plot_stop_stiffness(ratio, felt, kept, marked, ax=None):

@@ -1,4 +1,4 @@
-"""Sentences, tables and captions of Part IX: the robot as a filter, a choice of suspension.
+"""Words of Parts IX to XI: the robot as a filter, a choice of suspension, a rough road.
 
 A suspension is a robot, of which stiffness and damping, alike on both axles, are told. `candidates`
 holds a `suspension.choice.Candidate` for each by name, the present one first; `maps` is a
@@ -43,6 +43,7 @@ __all__ = [
     "robust_table",
     "robust_words",
     "rough_caption",
+    "rough_conclusion",
     "rough_table",
     "rough_words",
     "short_waves",
@@ -378,7 +379,7 @@ def drive_links(candidates, reach, v):
     for name, (robot, *_) in candidates.items():
         if robot.k1 in reach["k"] and robot.c1 in reach["c"]:
             settings = f"v={v:g}&k={robot.k1:.6g}&c={robot.c1:.6g}&motion=flying"
-            phrases.append(f"[{name}](../notebooks/10-drive.ipynb#explore:{settings})")
+            phrases.append(f"[{name}](../notebooks/12-drive.ipynb#explore:{settings})")
         else:
             outside.append(name)
     words = [f"Drive them over the bump at {v:g}{SPACE}m/s: {join(phrases)}."] if phrases else []
@@ -474,8 +475,8 @@ def rms_caption(names, classes):
 
 
 def conclusions(findings):
-    """What an engineer should take away: five sentences."""
-    sentences = [f(findings) for f in (_springs, _longer, _reserve, _range, _rough)]
+    """What an engineer should take away: four sentences."""
+    sentences = [f(findings) for f in (_springs, _longer, _reserve, _range)]
     return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
 
 
@@ -541,8 +542,9 @@ def _range(findings):
     return f"{ask}: {where} it takes {quantity(wide.robot.k1, 'N/m')}{but}."
 
 
-def _rough(findings):
-    flights = _flights(findings.rides)
+def rough_conclusion(rides):
+    """What the choice changes on the rough road."""
+    flights = _flights(rides)
     most, fewest = max(flights, key=flights.get), min(flights, key=flights.get)
     if flights[most] == flights[fewest]:
         return "On the rough road the choice makes no difference in the number of flights."

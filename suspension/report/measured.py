@@ -8,12 +8,12 @@ a `suspension.measured.Study`. After a loss of contact no margin is told: it is 
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.measured import REACH, same_speed
+from suspension.measured import REACH, surviving
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
     Caption,
-    count,
+    confidence,
     fixed,
     interval,
     join,
@@ -27,10 +27,7 @@ from suspension.spring_law import linearised, rest
 
 __all__ = [
     "aftermath_table",
-    "aftermath_words",
     "conclusions",
-    "cost_sentence",
-    "cost_table",
     "critical_table",
     "draws_sentence",
     "geometry_sentence",
@@ -39,8 +36,7 @@ __all__ = [
     "margins_caption",
     "order_caption",
     "order_sentence",
-    "reach_table",
-    "regions_caption",
+    "power_table",
     "run_caption",
     "sign_table",
     "statics_table",
@@ -51,9 +47,9 @@ __all__ = [
     "verdict_table",
 ]
 
-ROUNDOFF = 1e-9  # N
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
 KINK = 2.6  # an order below this is that of a kink, with its scatter
+OPEN, SIGNED = "open", {True: "lost", False: "kept"}
 
 
 # --- the law, at rest -----------------------------------------------------------------------------
@@ -64,7 +60,7 @@ def law_caption(fit, at_rest, farthest):
     x = np.linspace(0, 1, 101)
     apart = np.abs(fit.beta[0] + fit.beta[2] * x**2).max() / fit.beta.sum()
     where = "they hardly differ." if apart < ALIKE else "only the line leaves the readings."
-    beyond = "." if farthest > 1 else "; the line does not go there."
+    goes = "." if farthest > 1 else "; the line does not go there."
     alt = (
         "Force against displacement over delta_max: the readings, a line, the fitted parabola with "
         "its end tangents, and the parabola with a rubber and with a metal stop, which turn up "
@@ -74,7 +70,7 @@ def law_caption(fit, at_rest, farthest):
     )
     text = (
         f"Four laws for one spring. Where it was measured {where} Beyond "
-        rf"$\delta_{{\max{{}}}}$ (grey) each is an assumption{beyond}"
+        rf"$\delta_{{\max{{}}}}$ (grey) each is an assumption{goes}"
     )
     return Caption(text, alt)
 
@@ -99,36 +95,6 @@ def statics_table(laws, robot):
     note = (
         rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on: {join(beyond)}. With a stop it "
         "stands on it before it has driven a step."
-    )
-    return f"{table(rows)}\n\n{note}"
-
-
-def reach_table(asked, heights, linear, runs, delta_max):
-    """What the linearisation is wrong by when the bump grows.
-
-    Parameters
-    ----------
-    heights : sequence of float
-        Of the bump, m.
-    linear, runs : sequence of Drive
-        For each height, of the tangent at rest and of the law itself.
-    """
-    rows = []
-    for height, one, other in zip(heights, linear, runs):
-        cells = {}
-        for i, v in enumerate(asked):
-            error = one.margin[i] - other.margin[i]
-            if one.kept[i] and other.kept[i]:
-                cell = number(error, 2) if abs(error) > ROUNDOFF else "0"
-            elif one.kept[i] == other.kept[i]:
-                cell = "lost on both"
-            else:
-                cell = "**another verdict**"
-            cells[f"{v:g} m/s"] = cell + ("\\*" if other.compression[i] > delta_max else "")
-        rows.append({"bump (mm)": fixed(1000 * height, 1), **cells})
-    note = (
-        "Margin of the linear robot (the tangent at rest) minus that of the law, in N. An "
-        "asterisk: a spring is on its stop at some moment."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -177,73 +143,44 @@ def verdict_sentence(asked, runs):
     return " ".join(words)
 
 
-def aftermath_table(asked, runs, delta_max):
-    """What a ground that only pushes does to the robot: largest values of the whole way."""
-    rows = []
-    for i, v in enumerate(asked):
-        for name, run in runs.items():
-            rows.append(
-                {
-                    "v (m/s)": f"{v:g}",
-                    "law": name,
-                    "acceleration (m/s²)": number(run.acceleration[i]),
-                    r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
-                    "in the air, rear (ms)": _air(run.airtime[0, i]),
-                    "front (ms)": _air(run.airtime[1, i]),
-                    "flights": str(run.flights[:, i].sum()),
-                }
-            )
-    return table(rows)
-
-
-def _air(seconds):
-    return fixed(1000 * seconds, 1) if seconds else "–"
-
-
-def aftermath_words(asked, runs):
-    """Where the law matters most to what the robot feels."""
-    felt = np.array([run.acceleration for run in runs.values()])
-    i = int(np.argmax(felt.max(axis=0) / felt.min(axis=0)))
-    ratio = felt[:, i].max() / felt[:, i].min()
-    if ratio < 1 + ALIKE:
-        return "What the body feels hardly depends on the law at any asked speed."
-    hardest, softest = (list(runs)[f(felt[:, i])] for f in (np.argmax, np.argmin))
-    return (
-        f"What the body feels depends on the law most at {speed_list([asked[i]])}: the largest "
-        f"acceleration on the {hardest} is {number(ratio, 2)} times that on the {softest}."
-    )
-
-
-def geometry_sentence(asked, runs, full, critical, tilted):
-    """What the full geometry changes.
-
-    Parameters
-    ----------
-    full : dict of str to Drive
-        As `runs`, with the full geometry.
-    critical, tilted : array_like
-        Critical speeds of the parabola, m/s, with a small pitch and with the full geometry.
-    """
+def geometry_sentence(asked, runs, full):
+    """What the full geometry changes; `full` as `runs`."""
     turned, moved = [], []
     for name, run in runs.items():
         other = full[name]
         turned += [f"{v:g}{SPACE}m/s ({name})" for v in np.extract(run.kept != other.kept, asked)]
         moved += list(np.abs(other.margin - run.margin)[run.kept & other.kept])
-    words = r"With $\sin\theta$ and $\cos\theta$ in place of $\theta$ and 1, "
-    words += f"the verdict turns at {join(turned)}." if turned else "no verdict turns."
+    words = f"the verdict turns at {join(turned)}." if turned else "no verdict turns."
     if moved:
         words += (
             f" Where contact is kept the margin moves by at most {quantity(max(moved), 'N', 2)}."
         )
-    if len(critical) != len(tilted):
-        words += (
-            f" The parabola then has {count(len(tilted), 'critical speed')} instead of "
-            f"{count(len(critical), 'one').split()[0]}."
-        )
-    elif len(critical):
-        moved = np.abs(np.asarray(tilted) / critical - 1).max()
-        words += f" The critical speeds of the parabola move by at most {percent(moved)}."
-    return words
+    return rf"With $\sin\theta$ and $\cos\theta$ in place of $\theta$ and 1, {words}"
+
+
+def aftermath_table(asked, runs, delta_max):
+    """What a ground that only pushes does to the robot where some law loses contact."""
+    rows = [
+        {
+            "v (m/s)": f"{v:g}",
+            "law": name,
+            "acceleration (m/s²)": number(run.acceleration[i]),
+            r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
+            "in the air: rear, front (ms)": ", ".join(_air(t) for t in run.airtime[:, i]),
+            "flights": str(run.flights[:, i].sum()),
+        }
+        for i, v in enumerate(asked)
+        if not all(run.kept[i] for run in runs.values())
+        for name, run in runs.items()
+    ]
+    if not rows:
+        return "No law loses contact at an asked speed."
+    note = "Largest values of the whole way, and what both wheels spend in the air."
+    return f"{table(rows)}\n\n{note}"
+
+
+def _air(seconds):
+    return fixed(1000 * seconds, 1) if seconds else "–"
 
 
 def margins_caption(critical):
@@ -261,39 +198,21 @@ def margins_caption(critical):
 
 
 def survival_sentence(critical):
-    """Which critical speeds of the line are there on the other laws, and how far they move."""
-    (_, line), *others = critical.items()
+    """Which critical speeds of the line are there on every law; `critical` by law, m/s."""
+    line = next(iter(critical.values()))
+    kept = surviving(critical.values())
+    gone = [v for v in line if v not in kept]
     if not len(line):
-        found = [name for name, speeds in others if len(speeds)]
-        if not found:
-            return "The line has no critical speed in the range, and neither has any other law."
-        return (
-            f"The line has no critical speed in the range, but other laws have some: {join(found)}."
-        )
-    words = [f"The line has {count(len(line), 'critical speed')}."]
-    words += [f"*{name.capitalize()}*: {_survivors(line, speeds)}." for name, speeds in others]
-    return " ".join(words)
-
-
-def _survivors(line, speeds):
-    pairs = {v: same_speed(speeds, v) for v in line}
-    stay = [v for v, w in pairs.items() if w is not None]
-    gone = [v for v, w in pairs.items() if w is None]
-    new = [w for w in speeds if w not in pairs.values()]
-    parts = []
-    if stay:
-        moved = max(abs(pairs[v] / v - 1) for v in stay)
-        which = "all stay" if not gone else f"{speed_list(stay)} {_verb('stay', stay)}"
-        if len(line) == 1:
-            which = "it stays"
-        parts.append(which + (f", moved by at most {percent(moved)}" if moved > ROUNDOFF else ""))
-    if gone:
-        parts.append(f"there is none at {speed_list(gone)}" if stay else "none of them stays")
-    if new:
-        parts.append(
-            f"there {'is another' if len(new) == 1 else 'are others'}, at {speed_list(new)}"
-        )
-    return "; ".join(parts)
+        found = [name for name, speeds in critical.items() if len(speeds)]
+        others = f"; there are some on: {join(found)}." if found else ", and no other law has one."
+        return f"The line has no critical speed in the range{others}"
+    if not gone:
+        return "Every critical speed of the line is there on all laws."
+    stay = f"only {speed_list(kept)} {_verb('stay', kept)}" if kept else "none stays"
+    return (
+        f"Of the line's critical speeds {stay} on all laws; {speed_list(gone)} "
+        f"{_verb('belong', gone)} to a spring that nobody has measured."
+    )
 
 
 def _verb(verb, things):
@@ -337,27 +256,21 @@ def stiffness_caption(ratio, felt):
 
 
 def stiffness_sentence(turns):
-    """Whether the verdict depends on how stiff the stop is; `turns`: where it turns, by speed.
-
-    Where is the stiffness of the stop over that of the spring.
-    """
+    """At which stop over spring stiffness the verdict turns, if at all; `turns` by speed."""
     steady = [v for v, ratios in turns.items() if not len(ratios)]
     words = []
     if steady:
-        words.append(
-            f"At {speed_list(steady)} the verdict is the same for every stop of this range: its "
-            "stiffness need not be known."
-        )
-    for v, ratios in turns.items():
-        if len(ratios):
-            words.append(
-                f"At {speed_list([v])} it turns at {join(number(r) for r in ratios)} times the "
-                "stiffness of the spring."
-            )
+        words = [f"At {speed_list(steady)} the verdict is the same with every stop that was tried."]
+    words += [
+        f"At {speed_list([v])} it turns at {join(number(r) for r in ratios)} times the stiffness "
+        "of the spring."
+        for v, ratios in turns.items()
+        if len(ratios)
+    ]
     return " ".join(words)
 
 
-# --- what a stop costs ----------------------------------------------------------------------------
+# --- what a stop costs: the appendix --------------------------------------------------------------
 
 
 def limit_table(eigenvalues, dt):
@@ -370,37 +283,21 @@ def limit_table(eigenvalues, dt):
                 r"longest stable $\Delta t$ of RK4 (ms)": number(
                     1000 * RK4.max_stable_dt(values), 3
                 ),
-                rf"$\Delta t$ = {dt:g}{SPACE}s": _stable(values, dt, mark="**"),
+                rf"$\Delta t$ = {dt:g}{SPACE}s": (
+                    f"**{'stable' if RK4.is_stable(values, dt) else 'unstable'}**"
+                ),
             }
             for name, values in eigenvalues.items()
         ]
     )
 
 
-def _stable(eigenvalues, dt, mark=""):
-    return f"{mark}{'stable' if RK4.is_stable(eigenvalues, dt) else 'unstable'}{mark}"
-
-
-def regions_caption(eigenvalues, dts):
-    """Caption of the stability diagram with the eigenvalues on and off the stop."""
-    each = "; ".join(
-        f"{name} at {dt:g} s {_stable(values, dt)}"
-        for dt in dts
-        for name, values in eigenvalues.items()
-    )
-    return Caption(
-        r"The diagram of Question 7 once more: the same method, other eigenvalues. On the stop "
-        r"$\lambda\Delta t$ grows along the imaginary axis.",
-        f"Region of absolute stability of RK4 with the points lambda dt of each law: {each}.",
-    )
-
-
 def order_caption(v, orders):
     """Caption of the error of RK4 on each law, with the observed orders."""
-    each = join(f"{name} {fixed(order, 1)}" for name, order in orders.items())
+    each = join((f"{name} {fixed(order, 1)}" for name, order in orders.items()), none="none")
     return Caption(
-        f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside Radau, which stops "
-        "at every switch.",
+        f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside a run of DOP853 "
+        "with steps that are short at every kink.",
         f"Error against time step on logarithmic axes; observed slopes: {each}.",
     )
 
@@ -408,7 +305,7 @@ def order_caption(v, orders):
 def order_sentence(orders):
     """What the stop does to the order; `orders` by law, without a stop first."""
     if not orders:
-        return "The errors are too small, beside those of Radau, to show an order."
+        return "The errors are too small to show an order."
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
     first, *others = orders.values()
     if max(orders.values()) < KINK:
@@ -423,56 +320,31 @@ def order_sentence(orders):
     return f"Observed orders: {each}. {what}"
 
 
-def cost_table(rows):
-    """Rows of method, stop, steps, error, evaluations and solves as a table."""
+# --- how well it is known -------------------------------------------------------------------------
+
+
+def power_table(curvature, noticed, moved):
+    """What the F test notices of a curvature, and what that does to the slope of the line.
+
+    Parameters
+    ----------
+    curvature : array_like, shape (n,)
+        True coefficients, N; all zero if the readings have no scatter.
+    noticed, moved : array_like, shape (n,)
+        Power of the test; by how many half-widths of its own interval the slope is off.
+    """
+    if not np.any(curvature):
+        return "These readings have no scatter, and the test notices the smallest curvature."
     return table(
         [
             {
-                "method": row["method"],
-                "stop, of $k$": _times(row["stop"]),
-                "steps": row["steps"],
-                "evaluations": row["evaluations"],
-                "linear systems": row["solves"],
-                "relative error": _error(row),
+                r"true curvature $\beta_2$ (N)": number(size, 2),
+                "the F test notices it in": confidence(power),
+                "the slope of the line is off by (half-widths)": number(off, 2),
             }
-            for row in rows
+            for size, power, off in zip(curvature, noticed, moved)
         ]
     )
-
-
-def _times(ratio):
-    """A power of ten as a factor."""
-    return number(ratio, 1 if ratio > 1e4 else 4)
-
-
-def _error(row):
-    if row["stable"]:
-        return number(row["error"], 2)
-    return f"{number(row['error'], 1) if np.isfinite(row['error']) else 'overflow'} (unstable)"
-
-
-def cost_sentence(rows):
-    """Whether the implicit step is worth its price; the methods stand in pairs, RK4 first."""
-    pairs = list(zip(rows[::2], rows[1::2]))
-    stable = [(explicit, other) for explicit, other in pairs if explicit["stable"]]
-    better = sum(explicit["error"] <= other["error"] for explicit, other in stable)
-    words = f"RK4 is stable in {len(stable)} of {len(pairs)} cases"
-    if stable:
-        price = np.mean([other["solves"] / other["steps"] for _, other in stable])
-        words += (
-            f", and in {better} of these the more accurate of the two; there Crank-Nicolson solves "
-            f"{fixed(price, 1)} linear systems a step"
-        )
-    if len(stable) < len(pairs):
-        worst = max(other["error"] for explicit, other in pairs if not explicit["stable"])
-        words += (
-            ". Where RK4 is unstable Crank-Nicolson stays finite and is wrong by up to "
-            f"{percent(worst)}"
-        )
-    return words + "."
-
-
-# --- how well it is known -------------------------------------------------------------------------
 
 
 def draws_sentence(kept, drawn, linear):
@@ -496,63 +368,19 @@ def draws_sentence(kept, drawn, linear):
     return words
 
 
-def _share(share):
-    """A share of draws, with its bound where there is none or nothing else."""
-    if share.found == 0:
-        return f"<{SPACE}{percent(share.high)}"
-    if share.found == share.n:
-        return f">{SPACE}{percent(share.low, 3)}"
-    return percent(share.value)
-
-
-def sign_table(study):
-    """The verdicts as an engineer may sign them: parameters, model, both, and the outcome."""
-    line, rows = study.laws[0], []
-    for i, v in enumerate(study.asked):
-        margins = study.margins(i, line)
-        rows.append(
-            {
-                "v (m/s)": f"{v:g}",
-                "verdict of the line": "lost" if study.verdicts(line)[i] else "kept",
-                "its margin, 95 % interval (N)": (
-                    "–" if margins is None else interval(*margins, decimals=2)
-                ),
-                "parameters alone": f"{_share(study.share(i, line))} lost",
-                "model alone": f"{study.agreeing(i)} of {len(study.laws)} laws agree",
-                "both": f"{_share(study.share(i))} lost",
-                "signed": f"**{_outcome(study.signed(i))}**",
-            }
-        )
-    note = (
-        "*Parameters alone*: the share of the draws in which contact is lost on the line; where "
-        f"it is lost in none or in all of the {study.share(0).n}, the 95 % bound that so many "
-        "independent draws give. *Model alone*: at the estimates. *Both*: all laws with the same "
-        "weight; as all have the same draws, these count once. The weights are a judgement, not "
-        "a measurement. Signed is what leaves less than 2.5 % of doubt."
-    )
-    return f"{table(rows)}\n\n{note}"
-
-
-def _outcome(verdict):
-    return {True: "lost", False: "kept", None: "open"}[verdict]
-
-
 def critical_table(study):
-    """Critical speeds of every law with their intervals, then each speed over all laws."""
+    """Critical speeds of every law with their intervals."""
     rows = [
         _critical_row(name, v, followed)
-        for name in study.laws
-        for v, followed in zip(study.critical[name], study.followed[name])
+        for name, law in study.laws.items()
+        for v, followed in zip(law.critical, law.followed)
     ]
-    for family in study.families:
-        row = _critical_row("**all, with equal weights**", family.speed, family.followed.ravel())
-        rows.append(row | {"found": f"on {len(family.laws)} of {len(study.laws)} laws"})
     if not rows:
         return "No law has a critical speed in the range."
     note = (
         "*Found*: in how many of the draws the margin changes its sign within a factor "
-        f"{REACH:g}. Where that is not in all of them, or not on all laws, the interval is that "
-        "of those in which it is, and has no confidence level of its own."
+        f"{REACH:g}. Where that is not in all of them the interval is that of those in which it "
+        "is, and has no confidence level of its own."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -568,9 +396,40 @@ def _critical_row(name, v, followed):
     }
 
 
+def sign_table(study):
+    """The verdicts as an engineer may sign them: what the draws say on every law."""
+    rows = [
+        {
+            "v (m/s)": f"{v:g}",
+            **{name: _drawn(law, i) for name, law in study.laws.items()},
+            "signed": f"**{SIGNED.get(study.signed(i), OPEN)}**",
+        }
+        for i, v in enumerate(study.asked)
+    ]
+    share = study.line.share(0)
+    note = (
+        "In a row: what is not known about the model. In a cell: what is not known about its "
+        "parameters. *Kept*: in all draws, with the 95 % interval of the margin; *lost*: in all "
+        "draws; else the share of draws in which contact is lost. "
+        f"All of {share.n} draws leave up to {percent(type(share)(0, share.n).high)} of doubt, the "
+        "95 % bound of as many independent ones. Signed is what every law says with less than "
+        f"2.5{SPACE}% of doubt. No law needs a weight for that."
+    )
+    return f"{table(rows)}\n\n{note}"
+
+
+def _drawn(law, i):
+    """What the draws say of the i-th speed on one law."""
+    share, margins = law.share(i), law.margins(i)
+    if margins is not None:
+        return f"kept, {interval(*margins, decimals=2)}{SPACE}N"
+    return "lost" if share.found == share.n else f"{percent(share.value)} lost"
+
+
 def conclusions(study):
     """What an engineer should conclude, in five sentences."""
-    sentences = [f(study) for f in (_stands, _open, _critical, _readings_or_law, _measure)]
+    critical = survival_sentence({name: law.critical for name, law in study.laws.items()})
+    sentences = [_stands(study), _open(study), critical, _readings_or_law(study), _measure(study)]
     return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
 
 
@@ -581,20 +440,20 @@ def _signed(study, verdict):
 def _stands(study):
     stands = [
         f"{word} at {speed_list(_signed(study, verdict))}"
-        for word, verdict in (("kept", False), ("lost", True))
+        for verdict, word in SIGNED.items()
         if _signed(study, verdict)
     ]
     if not stands:
         return "None of the asked verdicts can be signed whatever the law is."
     return (
-        f"Contact is {join(stands)}: neither the scatter of the readings nor the choice among "
-        "the four laws changes that."
+        f"Contact is {join(sorted(stands))}: neither the scatter of the readings nor the choice "
+        "among the four laws changes that."
     )
 
 
 def _open(study):
-    beyond = [v for v, on in zip(study.asked, study.touched) if on]
     unsure = _signed(study, None)
+    beyond = np.extract(study.turned & study.touched, study.asked)
     decided = [v for v in unsure if v in beyond]
     if decided:
         where = rf"$\delta_{{\max{{}}}}$ = {fixed(1000 * study.delta_max, 1)}{SPACE}mm"
@@ -610,30 +469,9 @@ def _open(study):
     return "None of the asked verdicts is left open by these four laws."
 
 
-def _critical(study):
-    line = study.critical[study.laws[0]]
-    kept = [v for v in line if all(same_speed(w, v) is not None for w in study.critical.values())]
-    gone = [v for v in line if v not in kept]
-    if not len(line):
-        return "The line has no critical speed in the range, so none can be lost."
-    if not gone:
-        return "Every critical speed of the line is there on all four laws."
-    stay = f"only {speed_list(kept)} {_verb('stay', kept)}" if kept else "none stays"
-    return (
-        f"Of the line's critical speeds {stay} on all four laws; {speed_list(gone)} "
-        f"{_verb('belong', gone)} to a spring that nobody has measured."
-    )
-
-
 def _readings_or_law(study):
     """Whether the choice of the law or the scatter of the readings decides more verdicts."""
-    laws = len(study.laws)
-    turned = [v for i, v in enumerate(study.asked) if study.agreeing(i) < laws]
-    unsure = [
-        v
-        for i, v in enumerate(study.asked)
-        if any(study.share(i, name).verdict is None for name in study.laws)
-    ]
+    turned, unsure = (list(np.extract(x, study.asked)) for x in (study.turned, study.unsure))
     if turned and not unsure:
         return (
             f"The law decides and the readings do not: at {speed_list(turned)} the laws disagree, "
@@ -653,14 +491,13 @@ def _readings_or_law(study):
 
 
 def _measure(study):
-    beyond = [v for v, on in zip(study.asked, study.touched) if on]
-    if not beyond:
+    beyond = np.extract(study.touched, study.asked)
+    if not beyond.size:
         return (
             r"At none of the asked speeds does the spring go beyond $\delta_{\max{}}$: the stop "
             "does not matter there."
         )
     return (
         f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop "
-        "and measure where that is and how stiff: a few readings there are worth more than a "
-        "hundred below."
+        "and measure where that is and how stiff: no reading below it can tell."
     )

@@ -1,4 +1,4 @@
-"""The built book: its pages, links, figures and widgets, and what a browser makes of them."""
+"""The built book: its pages, links, figures and widgets; `tests/browser/` opens them."""
 
 import re
 from functools import cache
@@ -147,53 +147,3 @@ def test_formulas_are_set_and_need_no_script(book, page):
         assert formula.select_one(".katex-html") and formula.select_one("math"), formula
     scripts = " ".join(str(script) for script in soup.find_all("script")).lower()
     assert "mathjax" not in scripts and "katex" not in scripts
-
-
-@pytest.fixture(params=["http", "file"])
-def start(request, book, site):
-    """Where the book starts: in a sub-folder of a server, or as files."""
-    return site if request.param == "http" else book.as_uri() + "/"
-
-
-@pytest.fixture
-def visit(browser, start):
-    """Open a page on a phone; what it asked for, what it complained of, and the page."""
-    tab = browser.new_page(viewport={"width": 390, "height": 800})
-    asked, complaints = [], []
-    tab.on("request", lambda request: asked.append(request.url))
-    tab.on("requestfailed", lambda request: complaints.append(request.url))
-    tab.on("response", lambda answer: answer.status >= 400 and complaints.append(answer.url))
-    tab.on("pageerror", lambda error: complaints.append(str(error)))
-    tab.on("console", lambda line: line.type == "error" and complaints.append(line.text))
-
-    def go(page):
-        tab.goto(f"{start}{page}.html", wait_until="networkidle")
-        return tab, asked, complaints
-
-    yield go
-    tab.close()
-
-
-@each_page
-def test_in_a_browser(visit, start, page):
-    tab, asked, complaints = visit(page)
-    assert not complaints
-    assert not [url for url in asked if not url.startswith((start, "data:", "blob:"))]
-    for width in (390, 320):
-        tab.set_viewport_size({"width": width, "height": 800})
-        assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth"), (
-            "scrolls sideways"
-        )
-    # Chromium breaks a line of code after a bracket, Firefox only where it is told to.
-    unbroken = """[...document.querySelectorAll("article p > code > .pre")].filter((code) =>
-        getComputedStyle(code).overflowWrap === "normal" ||
-        getComputedStyle(code).whiteSpace !== "normal").map((code) => code.textContent)"""
-    assert not tab.evaluate(unbroken)
-
-
-def test_search_finds_a_page(visit):
-    tab, _, complaints = visit("search")
-    tab.locator("main form.bd-search input").fill("robot")
-    tab.keyboard.press("Enter")
-    tab.wait_for_selector("#search-results li a")
-    assert not complaints

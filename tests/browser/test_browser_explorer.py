@@ -988,7 +988,7 @@ def test_no_page_of_the_book_brings_a_widget_manager(book):
 
 
 def test_phrases_of_the_book_set_its_picture(visit, site, book):
-    tab = visit(f"{site}notebooks/10-drive.html")
+    tab = visit(f"{site}notebooks/12-drive.html")
     links = tab.locator("article a[href^='#explore:']")
     assert links.count() >= 5
     for nth in range(links.count()):
@@ -1142,7 +1142,7 @@ def pull(tab, name, nth=0, way=40):
     return [*seen, value()]
 
 
-@pytest.mark.parametrize("name", ["02-crank-nicolson", "03-runge-kutta", "10-drive"])
+@pytest.mark.parametrize("name", ["02-crank-nicolson", "03-runge-kutta", "12-drive"])
 def test_by_mouse_in_jupyterlab(browser, lab, name):
     """Every slider has a track, a whole label, a picture in sight, and comes back where it was."""
     tab = browser.new_page(viewport=WIDE)
@@ -1249,10 +1249,10 @@ def save(tab):
 
 def test_a_notebook_opens_unchanged_saves_clean_and_keeps_its_pictures(browser, lab):
     address, folder = lab
-    file = folder / "notebooks" / "10-drive.ipynb"
+    file = folder / "notebooks" / "12-drive.ipynb"
     before = file.read_text(encoding="utf-8")
     tab = browser.new_page(viewport=WIDE)
-    tab.goto(f"{address}lab/tree/notebooks/10-drive.ipynb?reset")
+    tab.goto(f"{address}lab/tree/notebooks/12-drive.ipynb?reset")
     tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
     tab.wait_for_timeout(3000)
     assert tab.locator(".jp-mod-dirty").count() == 0
@@ -1261,7 +1261,7 @@ def test_a_notebook_opens_unchanged_saves_clean_and_keeps_its_pictures(browser, 
     assert "Run All Cells" in picture.locator("img, svg").first.evaluate(
         "e => decodeURIComponent(e.src ?? e.outerHTML)"
     )
-    run_all(tab, address, "notebooks/10-drive.ipynb")
+    run_all(tab, address, "notebooks/12-drive.ipynb")
     tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
     tab.wait_for_timeout(2000)
     save(tab)
@@ -1304,7 +1304,7 @@ def test_without_its_kernel_another_notebook_shows_its_still_picture(browser, la
 def test_phrases_and_links_lead_somewhere_in_jupyterlab(browser, lab):
     address, folder = lab
     tab = browser.new_page(viewport=WIDE)
-    run_all(tab, address, "notebooks/10-drive.ipynb")
+    run_all(tab, address, "notebooks/12-drive.ipynb")
     tab.wait_for_timeout(3000)
     phrase = tab.locator("a[href='#explore:v=0.25']").first
     phrase.click()
@@ -1329,7 +1329,7 @@ def test_a_phrase_on_another_notebooks_picture_waits_until_it_is_run(browser, la
     notebook = new_notebook(
         cells=[
             new_markdown_cell(
-                "[drive it](../notebooks/10-drive.ipynb#explore:v=3.3&k=700)\n\n"
+                "[drive it](../notebooks/12-drive.ipynb#explore:v=3.3&k=700)\n\n"
                 "[the fit](../notebooks/06-how-sure.ipynb#fig-sensitivity)"
             )
         ]

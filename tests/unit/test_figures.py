@@ -50,7 +50,6 @@ from suspension.figures import (
     plot_slopes,
     plot_spring_laws,
     plot_stability,
-    plot_stop_regions,
     plot_stop_stiffness,
     plot_travel,
     plot_vehicles,
@@ -128,9 +127,6 @@ ON_ONE = {
         V, MARGINS, {"line": CRITICAL, "stop": []}, [1.2], ax
     ),
     "plot_spring_laws": lambda ax: plot_spring_laws(T, LAWS, DATA, 0.5, 0.9, ax),
-    "plot_stop_regions": lambda ax: plot_stop_regions(
-        RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6), ax
-    ),
     "plot_stop_stiffness": lambda ax: plot_stop_stiffness(
         np.geomspace(1, 1e4, 9),
         {1.2: np.linspace(3, 300, 9)},
@@ -594,12 +590,6 @@ def test_critical_speeds_of_every_law_lie_on_zero():
     marks = [line for line in ax.lines if line.get_marker() not in ("None", "")]
     assert [list(mark.get_xdata()) for mark in marks] == [CRITICAL, [3.0]]
     assert all((np.asarray(mark.get_ydata()) == 0).all() for mark in marks)
-
-
-def test_the_regions_say_which_steps_are_stable():
-    ax = plot_stop_regions(RK4, {"none": ROBOT.eigenvalues}, [0.01, 0.2], (-4, 2, -6, 6))
-    said = [name for name in lines(ax) if "Delta t" in name]
-    assert ["unstable" in name for name in said] == [False, True]
 
 
 def test_a_chart_marks_what_is_asked_by_its_verdict_and_shades_what_is_lost():

@@ -787,6 +787,25 @@ def test_a_road_of_noise_is_told_where():
         fly(ROBOT, road, v=1, tfinal=1)
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("part", [0, 1])
+def test_a_road_that_ends_on_the_way_is_told_where(value, part):
+    def road(x):
+        answer = list(BUMP(x))
+        answer[part] = np.where(x > 0.3, value, answer[part])
+        return answer
+
+    with pytest.raises(ValueError, match=rf"got {('H', 'dHdx')[part]} not finite at x = 0\.[3-5]"):
+        fly(ROBOT, road, v=1.2, tfinal=0.5)
+
+
+@pytest.mark.parametrize("answer", [lambda x: (x[:1], x[:1]), lambda x: (0.0, 0.0), lambda x: None])
+@pytest.mark.parametrize("call", [make_flight_gfunc, lambda *on: fly(*on, v=1, tfinal=0.5)])
+def test_a_road_of_another_shape_is_refused(call, answer):
+    with pytest.raises(ValueError, match="road must return"):
+        call(ROBOT, answer)
+
+
 def test_a_kerb_is_driven_over():
     def kerb(x):
         return np.where(x > 0.2, 0.01, 0.0), np.zeros_like(x)

@@ -8,7 +8,16 @@ from cases import DELTA_MAX, fitted
 from scipy import stats
 
 from suspension.contact import critical_speeds
-from suspension.measured import Share, Study, follow_speed, joint_draws, zero_speeds, zero_stops
+from suspension.measured import (
+    Findings,
+    Share,
+    Study,
+    follow_speed,
+    joint_draws,
+    surviving,
+    zero_speeds,
+    zero_stops,
+)
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.spring_law import SpringLaw
@@ -104,26 +113,55 @@ def test_a_verdict_needs_draws_enough(found, n, verdict):
     assert Share(found, n).verdict is verdict
 
 
-def driven(margins):
+def driven(margins, compression=0.01):
     margins = np.maximum(margins, 0)
     nothing = np.zeros_like(margins)
-    return Drive(margins, *[nothing] * 6, *np.zeros((2, 2, *margins.shape)))
+    return Drive(
+        margins, nothing, nothing, nothing, nothing + compression, *[nothing] * 2,
+        *np.zeros((2, 2, *margins.shape)),
+    )  # fmt: skip
 
 
-def test_the_same_draws_on_several_laws_count_once():
-    drawn = {"a": driven(np.ones((8, 1))), "b": driven(-np.ones((8, 1)))}
-    runs = {name: driven(one.margin[0]) for name, one in drawn.items()}
-    study = Study((1.0,), DELTA_MAX, runs, drawn, {"a": [], "b": []}, {"a": [], "b": []})
-    assert study.share(0) == (4, 8) and study.share(0, "b") == (8, 8)
-    assert study.agreeing(0) == 1 and study.signed(0) is None
-    assert study.margins(0, "b") is None and list(study.margins(0, "a")) == [1, 1]
+def findings(*margins, spread=0.0, n=128, **how):
+    """A law with such margins at the asked speeds, the n draws scatter evenly about them."""
+    draws = np.array(margins) + np.linspace(-spread, spread, n)[:, None]
+    return Findings(driven(np.array(margins), **how), driven(draws), [], [])
 
 
-def test_critical_speeds_within_a_tenth_are_one_family():
-    critical = {"a": [0.4, 8.0], "b": [0.41], "c": [7.7]}
-    followed = {name: [np.full(3, v) for v in speeds] for name, speeds in critical.items()}
-    study = Study((), DELTA_MAX, dict.fromkeys("abc"), {}, critical, followed)
-    slow, fast = study.families
-    assert slow.laws == ("a", "b") and fast.laws == ("a", "c")
-    assert slow.followed.shape == (3, 3) and np.isnan(slow.followed[2]).all()
-    assert (fast.followed[2] == 7.7).all()
+def study_of(**laws):
+    return Study(range(len(laws["line"].run.margin)), DELTA_MAX, laws)
+
+
+def test_a_share_counts_the_draws_that_lose_contact():
+    law = findings(0.5, -2.0, spread=1.0)
+    assert law.share(0) == (32, 128) and law.share(1) == (128, 128)
+    assert law.margins(0) is None and law.margins(1) is None
+    np.testing.assert_allclose(findings(3.0, spread=1.0).margins(0), [2.05, 3.95], rtol=1e-12)
+
+
+def test_a_verdict_is_signed_if_every_law_leaves_no_doubt_of_it():
+    """No mean over laws: one that disagrees, or is in doubt, cannot be outvoted."""
+    sure, doubtful, lost = findings(1.0), findings(1.0, spread=1.05), findings(-1.0)
+    assert study_of(line=sure).signed(0) is False and study_of(line=lost).signed(0) is True
+    many = {f"law {i}": sure for i in range(50)}
+    assert study_of(line=sure, **many).signed(0) is False
+    assert study_of(line=sure, **many, other=lost).signed(0) is None
+    assert study_of(line=sure, **many, other=doubtful).signed(0) is None
+    few = findings(1.0, n=64)  # 3 / 64 is no certainty
+    assert study_of(line=few).signed(0) is None
+
+
+def test_laws_disagree_or_draws_do():
+    study = study_of(
+        line=findings(1.0, 1.0, 0.0), other=findings(1.0, -1.0, 0.0, spread=0.5, compression=0.02)
+    )
+    assert list(study.turned) == [False, True, False]
+    assert list(study.unsure) == [False, False, True]
+    assert study.touched.all() and study.line is study.laws["line"]
+    assert not study_of(line=findings(1.0)).touched.any()
+
+
+def test_critical_speeds_survive_if_every_law_has_them_within_a_tenth():
+    assert surviving([[0.4, 8.0, 20.0], [0.41, 8.1], [0.4, 7.0, 20.0]]) == [0.4]
+    assert surviving([[0.4, 8.0]]) == [0.4, 8.0]
+    assert surviving([[], [0.4]]) == []

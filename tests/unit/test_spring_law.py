@@ -112,6 +112,11 @@ def test_a_spring_that_gives_way_is_refused(beta, words):
         SpringLaw(*beta, DELTA_MAX)
 
 
+def test_a_spring_that_hardly_grows_is_taken():
+    for law in (SpringLaw(0, 1e-3, 0, DELTA_MAX), SpringLaw(0, 10, -4.99, DELTA_MAX)):
+        assert law.tangent(2 * DELTA_MAX) > 0
+
+
 # --- at rest --------------------------------------------------------------------------------------
 
 
