@@ -17,7 +17,7 @@ import traitlets
 from IPython.display import display
 
 from suspension import _checks
-from suspension.explorer.bundle import bundle
+from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
@@ -91,7 +91,7 @@ class Explorer(anywidget.AnyWidget):
     """
 
     _esm = bundle(PAGE, "widget")
-    _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
+    _css = without_comments((PAGE / "explorer.css").read_text(encoding="utf-8"))
 
     v = traitlets.Float(1.2).tag(sync=True)
     dt = traitlets.Float(0.001).tag(sync=True)
