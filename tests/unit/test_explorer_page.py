@@ -257,7 +257,7 @@ def everything(explorer, rng, count):
     runs, pins = (list(random_settings(explorer, rng, count)) for _ in range(2))
     for run, pin in zip(runs, pins, strict=True):
         run |= {
-            "time": round(rng.uniform(), 4),  # an address has four digits
+            "time": round(rng.uniform(), 6),  # an address has six digits
             "motion": str(rng.choice(["linear", "flying"])),
             "view": str(rng.choice(["forces", "stability", "speeds"])),
             "pace": str(rng.choice(["fit", "same"])),

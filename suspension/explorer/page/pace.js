@@ -65,12 +65,12 @@ function changes({ N, J, dt }, i) {
 
 /** The event at a fraction of the crossing, or undefined; the one before it; the one after it. */
 export function eventAt(events, at) {
-  return events.find((event) => Math.abs(event.at - at) < 6e-5); // an address has four digits
+  return events.find((event) => Math.abs(event.at - at) < 1e-6);
 }
 export function eventBeside(events, at, way) {
   return way > 0
-    ? events.find((event) => event.at > at + 1e-4)
-    : events.findLast((event) => event.at < at - 1e-4);
+    ? events.find((event) => event.at > at + 2e-6)
+    : events.findLast((event) => event.at < at - 2e-6);
 }
 
 /** Seconds that the clock takes for a crossing that is played, by the choice of the reader. */

@@ -131,7 +131,7 @@ export function makePlayer({ root, box, stage, bar }, facts, model, shown, { set
       if (playing) stop();
     },
     /** Somebody else has set the moment. */
-    giveWay: () => playing && model.get("time") !== playing.time && stop(),
+    giveWay: () => playing && Math.abs(model.get("time") - playing.time) > 1e-6 && stop(),
     /** The picture is another one, at a moment worth looking at: what is played begins at the start. */
     refresh() {
       touched();

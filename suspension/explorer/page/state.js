@@ -10,6 +10,7 @@ const CHOICES = {
   pace: ["fit", "same"],
   mapped: [false, true],
 };
+const GRAIN = 1e6; // moments in a crossing: few enough that an address says which
 const PIN = "pin."; // before the names of a pinned run's settings
 export const SETTINGS = [...SLIDERS, "scheme_index"]; // what a run depends on
 
@@ -41,7 +42,8 @@ export function guarded(model) {
     },
     set(name, value) {
       const checked = check(name, value);
-      if (checked !== undefined) model.set(name, checked);
+      if (checked === undefined) return;
+      model.set(name, name === "time" ? Math.round(GRAIN * checked) / GRAIN : checked);
     },
     on: (event, listener) => model.on(event, listener),
     off: (event, listener) => model.off(event, listener),
@@ -86,8 +88,7 @@ export function writeHash({ pin, ...settings }, initial, index = 0) {
   const parts = new URLSearchParams();
   if (index) parts.set("on", index + 1);
   for (const [name, value] of Object.entries(settings)) {
-    if (value === initial[name]) continue;
-    parts.set(name, name === "time" ? String(Math.round(value * 1e4) / 1e4) : String(value));
+    if (value !== initial[name]) parts.set(name, String(value));
   }
   for (const [name, value] of Object.entries(pin ?? {})) {
     if (name === "v" || value !== initial[name]) parts.set(PIN + name, value);

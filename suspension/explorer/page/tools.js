@@ -104,22 +104,26 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
         made.redoButton?.setAttribute("aria-disabled", String(!made.canRedo()));
       },
     );
+    let typing = null;
+    const type = ({ type, target }) => (typing = type === "input" ? target : null);
     const key = (event) => {
       const { target } = event;
       if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z") return;
-      if (target.matches?.("input[type=text]") && target.value !== target.defaultValue) return; // its own
+      if (target === typing) return; // what is typed has its own
+      if (target.matches?.("input[type=text]")) frame.stage.focus({ preventScroll: true }); // shows what is set
       event.preventDefault();
       event.stopPropagation();
       if (event.shiftKey) made.redo();
       else made.undo();
     };
-    box.addEventListener("keydown", key, { capture: true });
-    box.addEventListener("pointerdown", made.note, { capture: true });
+    const heard = { keydown: key, pointerdown: made.note, input: type, change: type };
+    for (const [name, listener] of Object.entries(heard))
+      box.addEventListener(name, listener, { capture: true });
     frame.stage.tabIndex = -1; // so that keys go on coming here from one who has touched a picture
     speaker.onSettled(made.note);
     undo.push(() => {
-      box.removeEventListener("keydown", key, { capture: true });
-      box.removeEventListener("pointerdown", made.note, { capture: true });
+      for (const [name, listener] of Object.entries(heard))
+        box.removeEventListener(name, listener, { capture: true });
     });
     return made;
   }
