@@ -477,7 +477,7 @@ export const stabilityPanel = {
       this.draw(pen, scene, this.inset, pinned, false);
       pen.stroke("soft", 1);
       pen.line(x, y, x2, y, x2, y2, x, y2, x, y);
-      text(`${x2 - x > 95 ? "enlarged " : ""}${show(this.inset.scale / scale, 2)} ×`, x + 4, y + 13, {
+      text(`${show(this.inset.scale / scale, 2)} ×`, x + 4, y + 13, {
         halo: true,
       });
     }

@@ -55,7 +55,7 @@ export function makeShown(data, model) {
           ? { scene: pinned.scene, state: pinned.stateAt(now.X) }
           : apart && { scene, state: other },
         held: shown.held,
-        map: model.get("mapped") && currentMap(),
+        map: model.get("mapped") ? currentMap() : null,
       };
     },
   };
