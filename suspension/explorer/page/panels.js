@@ -81,7 +81,7 @@ export const robotPanel = {
       }
     });
     if (wild)
-      text("computed far outside this picture", w / 2, 14, { align: "center", colour: "doubt", bold: true });
+      text("computed far outside this picture", w / 2, 46, { align: "center", colour: "doubt", bold: true });
   },
   grab(x, _y, { now, scene }) {
     const { scale } = this,
@@ -365,7 +365,10 @@ export const speedsPanel = {
     const px = (v) => left + ((right - left) * Math.log(v / lowest)) / ratio;
     const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
     this.frame = { left, right, top, bottom, px, py, lowest, ratio };
-    text("Least force (N) at every speed, linear model", 0, 13, { colour: "ink", bold: true });
+    text(`Least force (N)${w > 310 ? " at every speed" : ""}, linear model`, 0, 13, {
+      colour: "ink",
+      bold: true,
+    });
     levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
     const edges = [lowest, ...critical, highestSpeed];
     edges.slice(1).forEach((edge, i) => {
