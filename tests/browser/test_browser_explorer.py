@@ -821,7 +821,7 @@ def test_the_race_shows_who_leaves_the_ground(visit, pages):
     said = dict(zip(lanes[::2], lanes[1::2], strict=True))
     for v in problem.SPEEDS:
         lost = margin(*PAGES["bump"], v) < 0
-        assert said[f"{v:g} m/s"].endswith("off the ground" if lost else "stayed on the ground")
+        assert said[f"{v:g} m/s"].endswith("left the ground" if lost else "stayed on the ground")
     kept = [v for v in problem.SPEEDS if margin(*PAGES["bump"], v) > 0]
     assert f"At {kept[0]:g} and {kept[1]:g} m/s both wheels stay" in headline(tab)
     label = tab.locator("canvas.se-race").get_attribute("aria-label").translate(PLAIN)

@@ -186,7 +186,7 @@ export function laneWords(lane, motion, t) {
   if (off.length)
     return {
       name,
-      words: `${which} ${motion === "flying" ? "off the ground" : "lost contact"}`,
+      words: `${which} ${motion === "flying" ? "left the ground" : "lost contact"}`,
       tone: "alarm",
     };
   if (t < lane.end * (1 - 1e-9)) return { name, words: "" };
