@@ -17,9 +17,10 @@ What goes beyond:
 - `tyre`: wheels that weigh something, and how light they must be
 - `energy`: what the road puts in, and where it goes
 - `spring_law`: the spring with its preload, its curvature and an end stop
-- `sweep`, `extremes`: very many runs at once, on a ground that only pushes
+- `motion`, `sweep`, `extremes`: very many runs at once, on a ground that only pushes
 - `small_angle`: what a pitch that is not small changes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
+- `rides`: rides on many rough roads at once
 - `choice`: what a suspension must do, and the least change that does it
 - `travel`, `accuracy`, `small_angle`, `branches`, `uncertainty`: how far the answers can be trusted
 - `measured`: which verdicts such a spring leaves standing

@@ -23,14 +23,12 @@ __all__ = [
     "Candidate",
     "Choice",
     "Demands",
-    "Exclusion",
     "Findings",
-    "Ride",
     "candidate",
     "cheapest",
     "demands",
     "efficient",
-    "exclusion",
+    "farthest",
     "fitted_with",
 ]
 
@@ -98,59 +96,6 @@ class Candidate(NamedTuple):
     regimes: Regimes
 
 
-class Exclusion(NamedTuple):
-    """What speaks against contact at all of several speeds, anywhere in a region.
-
-    Attributes
-    ----------
-    best : float
-        The largest of all worst margins that were computed, N.
-    k, c : float
-        Where, N/m and N s/m.
-    steepness : float
-        To reach zero between the points, the worst margin would have to be at least this many times
-        as steep as the steepest chords between neighbours there.
-    points : int
-        How many were computed.
-    """
-
-    best: float
-    k: float
-    c: float
-    steepness: float
-    points: int
-
-
-class Ride(NamedTuple):
-    """A ride on a rough road.
-
-    Attributes
-    ----------
-    name : str
-        Of the suspension.
-    v : float
-        m/s.
-    force, acceleration, pitch : float
-        Root mean squares of the linear motion, N, m/s^2 and rad.
-    expected, counted : float
-        The part of the time in which the rear wheel would have to be pulled.
-    flights : int
-        How often a wheel leaves the ground.
-    air : float
-        The part of the time in which the rear wheel is in the air.
-    """
-
-    name: str
-    v: float
-    force: float
-    acceleration: float
-    pitch: float
-    expected: float
-    counted: float
-    flights: int
-    air: float
-
-
 class Findings(NamedTuple):
     """What Part X found.
 
@@ -158,10 +103,10 @@ class Findings(NamedTuple):
     ----------
     least, reserved, wide : Choice or None
         The cheapest for contact at the asked speeds, with a reserve, and in their whole range.
-    reserve : float
-        N.
-    excluded : Exclusion
-        Of the springs on which the robot rests within the measured displacements.
+    stiffest : Choice or None
+        The stiffest with which contact is kept at the asked speeds.
+    limit : float
+        Largest displacement at which the spring was measured, m.
     candidates : dict of str to Candidate
         The present suspension, and those of the choices that are others.
     """
@@ -169,8 +114,8 @@ class Findings(NamedTuple):
     least: Choice | None
     reserved: Choice | None
     wide: Choice | None
-    reserve: float
-    excluded: Exclusion
+    stiffest: Choice | None
+    limit: float
     candidates: dict
 
 
@@ -323,86 +268,86 @@ def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     (277.1, 1.574, 1.061)
     """
     start = _own(robot, bump)
-    v, k, c = _grid(v, k, c)
-    reserve = _checks.number("reserve", reserve)
-    distance = distance_over(robot, bump, distance)
-
-    def margin_of(fitted, speed):
-        return margin(fitted, bump, speed, distance=distance)
-
-    # The speed with the least margin comes first: most suspensions fail there.
-    v = sorted(v, key=lambda speed: margin_of(robot, speed))
-
-    def spare(x):
-        changed = fitted_with(robot, *np.exp(x))
-        return np.array([margin_of(changed, speed) for speed in v]) - reserve
-
-    def keeps(x):
-        changed = fitted_with(robot, *np.exp(x))
-        return all(margin_of(changed, speed) >= reserve for speed in v)
-
-    if keeps(start):
-        return Choice(robot, 0.0, float(spare(start).min() + reserve))
-    points = np.array([[x, y] for x in np.log(k) for y in np.log(c)])
-    points = points[np.argsort(np.hypot(*(points - start).T))]
-    starts = list(islice(filter(keeps, points), STARTS))
-    if not starts:
-        return None
-    found = [
-        minimize(
-            lambda x: np.sum((x - start) ** 2),
-            first,
-            jac=lambda x: 2 * (x - start),
-            method="SLSQP",
-            bounds=np.log([(k[0], k[-1]), (c[0], c[-1])]),
-            constraints={"type": "ineq", "fun": spare},
-            options={"ftol": 1e-12},
-        ).x
-        for first in starts
-    ]
-    reached = [x for x in found if spare(x).min() >= -EDGE]
-    x = min([*reached, starts[0]], key=lambda x: np.hypot(*(x - start)))
-    least = float(spare(x).min() + reserve)
-    return Choice(fitted_with(robot, *np.exp(x)), float(np.hypot(*(x - start))), least)
+    search = _Search(robot, bump, v, k, c, _checks.number("reserve", reserve), distance)
+    if search.keeps(start):
+        return search.choice(start)
+    return search.best(lambda x: np.sum((x - start) ** 2), lambda x: 2 * (x - start))
 
 
-def exclusion(robot, bump, v, k, c, *, distance=None):
-    """Is contact lost at one of several speeds, at least, whatever the suspension?
-
-    The worst margin is a continuous function of ln k and ln c. Between points of a grid it can
-    reach zero only if it is steep enough; `steepness` compares with the chords that were found.
+def farthest(robot, bump, v, k, c, name, *, distance=None):
+    """The stiffest springs, or the strongest dampers, with contact at all of several speeds.
 
     Parameters
     ----------
     robot, bump, v, k, c, distance
-        As in `cheapest`; the grid has two points and more each way.
+        As in `cheapest`, whose way of searching it is.
+    name : {"k", "c"}
+        Which of the two is to be as large as the grid allows; the other one is free.
 
     Returns
     -------
-    Exclusion
-        An argument against contact if `best` is negative and `steepness` well above 1.
+    Choice or None
+
+    Examples
+    --------
+    >>> k, c = np.geomspace(150, 1200, 13), np.geomspace(0.4, 4, 9)
+    >>> choice = farthest(Robot(800, 800), GaussianBump(), [0.25, 1.2, 5, 10], k, c, "k")
+    >>> round(choice.robot.k1, 1), round(choice.robot.c1, 3)
+    (280.0, 1.971)
     """
     _own(robot, bump)
-    v, k, c = _grid(v, k, c)
-    if min(len(k), len(c)) < 2:
-        raise ValueError(f"k and c must have two values and more, got {len(k)} and {len(c)}")
-    distance = distance_over(robot, bump, distance)
+    way = -np.eye(2)[("k", "c").index(_checks.one_of("name", name, ("k", "c")))]
+    search = _Search(robot, bump, v, k, c, 0.0, distance)
+    return search.best(lambda x: way @ x, lambda x: way)
 
-    def worst_margin(k, c):
-        fitted = fitted_with(robot, k, c)
-        return min(margin(fitted, bump, speed, distance=distance) for speed in v)
 
-    worst = np.array([[worst_margin(a, b) for a in k] for b in c])
-    x, y = np.log(k), np.log(c)
-    # At each point the steepest chords towards its neighbours, in both directions.
-    across = np.pad(np.abs(np.diff(worst, axis=1) / np.diff(x)), ((0, 0), (1, 1)))
-    up = np.pad(np.abs(np.diff(worst, axis=0) / np.diff(y)[:, None]), ((1, 1), (0, 0)))
-    across, up = np.maximum(across[:, 1:], across[:, :-1]), np.maximum(up[1:], up[:-1])
-    reach = np.hypot(np.diff(x).max(), np.diff(y).max()) / 2  # of a point into its cells
-    with np.errstate(divide="ignore", invalid="ignore"):
-        steepness = np.nanmin(-worst / reach / np.hypot(across, up))
-    i, j = np.unravel_index(worst.argmax(), worst.shape)
-    return Exclusion(float(worst[i, j]), float(k[j]), float(c[i]), float(steepness), worst.size)
+class _Search:
+    """Where in ln k and ln c contact is kept at all speeds, with a reserve, and what is best."""
+
+    def __init__(self, robot, bump, v, k, c, reserve, distance):
+        self.robot, self.bump, self.reserve = robot, bump, reserve
+        v, self.k, self.c = _grid(v, k, c)
+        self.distance = distance_over(robot, bump, distance)
+        # The speed with the least margin comes first: most suspensions fail there.
+        self.v = sorted(v, key=lambda speed: self.margin(robot, speed))
+
+    def margin(self, robot, speed):
+        return margin(robot, self.bump, speed, distance=self.distance)
+
+    def spare(self, x):
+        changed = fitted_with(self.robot, *np.exp(x))
+        return np.array([self.margin(changed, speed) for speed in self.v]) - self.reserve
+
+    def keeps(self, x):
+        changed = fitted_with(self.robot, *np.exp(x))
+        return all(self.margin(changed, speed) >= self.reserve for speed in self.v)
+
+    def choice(self, x):
+        """The suspension at x; the robot itself where nothing is changed."""
+        away = np.linalg.norm(x - np.log([self.robot.k1, self.robot.c1]))
+        changed = fitted_with(self.robot, *np.exp(x)) if away else self.robot
+        return Choice(changed, float(away), float(self.spare(x).min() + self.reserve))
+
+    def best(self, goal, slope):
+        """The point with the least `goal`; None if no point of the grid keeps contact."""
+        points = np.array([[x, y] for x in np.log(self.k) for y in np.log(self.c)])
+        starts = list(islice(filter(self.keeps, sorted(points, key=goal)), STARTS))
+        if not starts:
+            return None
+        found = [
+            minimize(
+                goal,
+                first,
+                jac=slope,
+                method="SLSQP",
+                bounds=np.log([self.k[[0, -1]], self.c[[0, -1]]]),
+                constraints={"type": "ineq", "fun": self.spare},
+                options={"ftol": 1e-12},
+            ).x
+            for first in starts
+        ]
+        reached = [x for x in found if self.spare(x).min() >= -EDGE]
+        return self.choice(min([*reached, starts[0]], key=goal))
 
 
 def _own(robot, bump):

@@ -13,6 +13,7 @@ import numpy as np
 from suspension import _checks
 from suspension.extremes import Extremes
 from suspension.least_force import distance_over
+from suspension.motion import Cases, Full, Small, step
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump, profile, under_wheels
 from suspension.robot import Robot
@@ -32,7 +33,6 @@ SPACING = 24  # steps for each sigma of a bump
 FEATURE = 0.03  # m, the smallest feature of a road that has no sigma
 SWING = 24  # steps for each swing of the stiffest spring, or stop
 DECAY = 1.0  # steps for each time constant of the strongest damper
-HUGE = 1e30
 
 
 class Drive(NamedTuple):
@@ -165,23 +165,6 @@ class _Way(NamedTuple):
     full: bool
 
 
-class _Cases(NamedTuple):
-    """Robots, speeds and laws of n cases, each an array of shape (n,); `law` may be None."""
-
-    robots: np.ndarray
-    v: np.ndarray
-    law: SpringLaw | None
-
-    def some(self, index):
-        """Some of the cases."""
-        law = None if self.law is None else self.law[index]
-        return _Cases(self.robots[index], self.v[index], law)
-
-    def values(self, names):
-        """Parameters of the robots by name, each of shape (n,)."""
-        return np.array([[getattr(robot, name) for robot in self.robots] for name in names.split()])
-
-
 def _passed(robots, road, distance):
     """How far the runs go, m: `distance`, or that of the problem if the whole bump is in it."""
     if isinstance(road, GaussianBump) and robots.size:
@@ -206,7 +189,7 @@ def _side_by_side(robots, v, law):
     if law is not None:
         each = (np.broadcast_to(x, shape).ravel() for x in (law.beta0, law.beta1, law.beta2))
         law = SpringLaw(*each, law.delta_max, np.broadcast_to(law.stop, shape).ravel())
-    return shape, _Cases(robots, v, law)
+    return shape, Cases(robots, v, law)
 
 
 def _fill(found, some, cases, way):
@@ -230,101 +213,9 @@ def _fill(found, some, cases, way):
 
 def _steps(cases, way):
     """How many steps each run takes, shape (n,), float."""
-    m, inertia, L1, L2, k1, k2, c1, c2 = cases.values("m Izz L1 L2 k1 k2 c1 c2")
-    if cases.law is not None:
-        k1 = k2 = cases.law.stiffest
-
-    def fastest(k1, k2):
-        """Largest eigenvalue of what forces k1 p1, k2 p2 do to the compressions p."""
-        rear, front = k1 * (1 / m + L1**2 / inertia), k2 * (1 / m + L2**2 / inertia)
-        across = k1 * k2 * (1 / m - L1 * L2 / inertia) ** 2
-        return (rear + front) / 2 + np.sqrt((rear - front) ** 2 / 4 + across)
-
     spacing = _checks.positive("road's sigma", getattr(way.road, "sigma", FEATURE)) / SPACING
-    swings = np.sqrt(fastest(k1, k2)) / (2 * np.pi) * SWING
-    rate = np.maximum(swings, DECAY * fastest(c1, c2))  # steps a second
+    rate = np.maximum(cases.swings() * SWING, DECAY * cases.decays())  # steps a second
     return np.ceil(way.fine * np.maximum(way.distance / spacing, way.distance / cases.v * rate))
-
-
-class _Small:
-    """The motion of n cases with a small pitch, each in its own clock, whose unit is half a step.
-
-    So all go equally fast over the road, and a Runge-Kutta step has no factors that differ. The
-    state is where the ends of the body are above the wheels, ``y``, and ``u = y'``, shape (2, n).
-    """
-
-    def __init__(self, cases, dX, way):
-        self.pulls, self.law, self.half = way.pulls, cases.law, dX / 2
-        self.m, self.g, self.inertia, L1, L2 = cases.values("m g Izz L1 L2")
-        self.arms, self.time = np.array([-L1, L2]), self.half / cases.v  # s, of half a step
-        self.span, self.fall = L1 + L2, self.time**2 * self.g
-        self.k, self.c = cases.values("k1 k2"), cases.values("c1 c2") / self.time
-        # A normal force moves its own end, and the other one.
-        self.own = self.time**2 * (1 / self.m + self.arms**2 / self.inertia)
-        self.other = self.time**2 * (1 / self.m - L1 * L2 / self.inertia)
-        loads = self.m * self.g * np.array([L2, L1]) / self.span
-        self.load = loads.min(axis=0)
-        self.start = -loads / self.k if self.law is None else -self.law.displacement(loads)
-
-    def forces(self, p, r, case=None):
-        """Eq. 5 and the normal forces, N, from compressions and their rates.
-
-        Arrays are of shape (2, n), or (2, S, cells) with the index of S cases.
-        """
-        c, k, law = self.c, self.k, self.law
-        if case is not None:
-            c, k = c[:, case, None], k[:, case, None]
-            law = law and law[case, None]
-        F = k * p if law is None else law.force(p)
-        f = c * r
-        f += F
-        if self.pulls:
-            return f, f
-        # Where F > 0 this bound is out of reach, and where F < 0 it lies below zero.
-        N = np.minimum(f, HUGE * F)
-        return f, np.maximum(N, 0.0, out=N)
-
-    def rates(self, y, u, H, rise):
-        """Accelerations, m, compressions, m, their rates, Eq. 5 and normal forces, N: (2, n)."""
-        p, r = H - y, rise - u
-        f, N = self.forces(p, r)
-        a = self.own * N
-        a += self.other * N[::-1]
-        a -= self.fall
-        return a, p, r, f, N
-
-    def pitch(self, y):
-        """Pitch, rad, from the state, or its rate from that of the state, shape (n,)."""
-        return (y[1] - y[0]) / self.span
-
-
-class _Full(_Small):
-    """The motion of a rigid body, whose state is ``y = [Y, theta]`` and ``u = y'``."""
-
-    def __init__(self, cases, dX, way):
-        super().__init__(cases, dX, way)
-        tilt = super().pitch(self.start)
-        if (np.abs(tilt) > 1).any():
-            raise ValueError(
-                "robots and law must leave the springs at rest no further apart than the "
-                f"wheelbase, got {np.abs(tilt).max():g} times as far"
-            )
-        self.start = np.array([self.start[1] - self.arms[1] * tilt, np.arcsin(tilt)])
-
-    def rates(self, y, u, H, rise):
-        """As with a small pitch, with sin theta and cos theta."""
-        sine, cosine = np.sin(y[1]), np.cos(y[1])
-        p = H - y[0] - self.arms * sine
-        along = 1 - self.arms * sine * u[1] / self.half  # how fast a wheel goes, of the body's v
-        r = rise * along - u[0] - self.arms * cosine * u[1]
-        f, N = self.forces(p, r)
-        lift = self.time**2 / self.m * (N[0] + N[1]) - self.fall
-        moment = (self.arms * cosine * N).sum(axis=0)
-        return np.array([lift, self.time**2 / self.inertia * moment]), p, r, f, N
-
-    def pitch(self, y):
-        """As with a small pitch."""
-        return y[1]
 
 
 class _Ground:
@@ -361,7 +252,7 @@ class _Ground:
 def _run(cases, steps, way):
     """The fields of a `Drive` of n cases with so many steps."""
     n, dX = cases.v.size, way.distance / steps
-    motion = (_Full if way.full else _Small)(cases, dX, way)
+    motion = (Full if way.full else Small)(cases, dX, way.pulls)
     ground, extremes = _Ground(motion, way), Extremes(motion, n, dX)
     rows = [*np.empty((4, ROWS + 1, 2, n)), *np.empty((2, ROWS + 1, n))]
 
@@ -389,15 +280,7 @@ def _run(cases, steps, way):
                 extremes.digest(j - row + 2, *(array[:row] for array in rows))
                 keep(slice(3), *(array[row - 3 : row].copy() for array in rows))
                 row = 3
-            u2 = u + a1
-            a2 = rate(y + u, u2, 2 * j + 1)[0]
-            u3 = u + a2
-            a3 = rate(y + u2, u3, 2 * j + 1)[0]
-            u4 = u + 2 * a3
-            a4 = rate(y + 2 * u3, u4, 2 * j + 2)[0]
-            a2 += a3
-            y = y + 2 * (u + (a1 + a2) / 3)
-            u = u + (a1 + 2 * a2 + a4) / 3
+            y, u = step(lambda y, u, place: rate(y, u, place)[0], y, u, a1, 2 * j)
     if not np.isfinite(y).all():
         raise ValueError("road must be so smooth that a run stays finite")
     return extremes.result()

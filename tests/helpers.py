@@ -14,6 +14,7 @@ import numpy as np
 import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
+AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 PARITY = 1e-9  # how closely the explorer's page follows `simulate`
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = (
@@ -162,3 +163,15 @@ def start_chromium(path):
             yield browser
         finally:
             browser.close()
+
+
+def violations(tab, *rules, within="html"):
+    """What axe, once loaded, objects to, by some or all of its rules; how many found nothing."""
+    options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
+    result = tab.evaluate("([within, options]) => axe.run(within, options)", [within, options])
+    found = [
+        f"{violation['id']}: {violation['help']}: {node['target']} {node['failureSummary']}"
+        for violation in result["violations"]
+        for node in violation["nodes"]
+    ]
+    return found, len(result["passes"])

@@ -72,8 +72,8 @@ def stop(server):
         server.wait()
 
 
-def run_all(tab, address, notebook):
-    """Open a notebook alone, run all its cells, and wait for the explorer."""
+def run_all(tab, address, notebook, alive=".suspension-explorer-box.se-live"):
+    """Open a notebook alone, run all its cells, and wait for the explorer, or another picture."""
     tab.goto(f"{address}lab/tree/{notebook}?reset")
     # Asked to run before the kernel is there, JupyterLab asks back which one.
     tab.get_by_text("(ipykernel) | Idle").wait_for(timeout=90_000)
@@ -81,7 +81,7 @@ def run_all(tab, address, notebook):
     tab.get_by_role("menuitem", name="Run", exact=True).click()
     tab.get_by_role("menuitem", name="Run All Cells", exact=True).click()
     # JupyterLab draws what is in sight.
-    explorer = tab.locator(".suspension-explorer-box.se-live canvas[aria-label]")
+    explorer = tab.locator(f"{alive} canvas[aria-label]")
     pages = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer")
     for _ in range(300):
         if explorer.count():

@@ -1,10 +1,10 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
-An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`). Pages
-that hold one get its script and style sheet; the widgets, which only a kernel's front end could
-use, and their state are left out. The directive ``{explorer} name`` shows an explorer that a
-notebook has named, on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of
-their page, or of the page they point to.
+An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`), a
+prediction's its axes. Pages that hold one get its script and the style sheet; the widgets, which
+only a kernel's front end could use, and their state are left out. The directive ``{explorer}
+name`` shows an explorer that a notebook has named, on another page, and links like
+``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the page they point to.
 """
 
 import json
@@ -18,16 +18,21 @@ from sphinx.addnodes import pending_xref
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 
-from suspension.explorer import page_script, page_style
+from suspension.explorer import page_script, page_style, prediction_script
 
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
-BOX = "suspension-explorer-box"
+EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
+BOX = re.compile(f"{EXPLORER}|{PREDICTION}")
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
-FILES = {"explorer.js": page_script, "explorer.css": page_style}
+FILES = {
+    "explorer.js": page_script,
+    "prediction.js": prediction_script,
+    "explorer.css": page_style,
+}
 
 
 def write_files(app):
@@ -41,13 +46,16 @@ def write_files(app):
 
 
 def add_files(app, page, template, context, doctree):
-    """Load script and style on the pages with an explorer; the widgets' state on none."""
+    """Load scripts and style on the pages that need them; the widgets' state on none."""
     if doctree is None:
         return
     NbMetadataCollector.get_js_files(app.env, page).clear()
-    if any(BOX in node.astext() for node in doctree.findall(nodes.raw)):
-        app.add_js_file("explorer.js", loading_method="defer")
+    html = "".join(node.astext() for node in doctree.findall(nodes.raw))
+    if BOX.search(html):
         app.add_css_file("explorer.css")
+    for mark, script in ((EXPLORER, "explorer.js"), (PREDICTION, "prediction.js")):
+        if mark in html:
+            app.add_js_file(script, loading_method="defer")
 
 
 def keep_pages(app, page, source):
@@ -60,7 +68,7 @@ def keep_pages(app, page, source):
             shown = [out for out in cell["outputs"] if WIDGET not in out.get("data", {})]
             for data in (out.get("data", {}) for out in shown):
                 html = "".join(data.get("text/html", ""))
-                if BOX in html:
+                if BOX.search(html):
                     data.pop("image/svg+xml", None)
                     data["text/html"] = FOR_NOTEBOOKS.sub("", html)
             cell["outputs"] = shown

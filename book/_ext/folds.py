@@ -3,12 +3,16 @@
 A heading that begins with Solution, Proof or Answer opens a section that the page shows folded. In
 JupyterLab the same heading is collapsed by its cell's ``jp-MarkdownHeadingCollapsed``, so that one
 plain heading serves both, with code cells and figures below it.
+
+A list between a paragraph that begins with **Predict.** and the fold of its answer are choices: the
+page's script makes them buttons, of which the one that is tapped stays marked and opens the answer.
 """
 
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 
 FOLDED = ("Solution", "Proof", "Answer")
+PREDICT = "Predict."
 
 
 class fold(nodes.General, nodes.Element):
@@ -29,10 +33,19 @@ class FoldSections(SphinxTransform):
         for section in list(self.document.findall(nodes.section)):
             title = section[0]
             if title.astext().startswith(FOLDED):
+                mark_choices(section)
                 folded = fold("", ids=section["ids"], names=section["names"])
                 folded += fold_title("", "", *title.children)
                 folded += section.children[1:]
                 section.replace_self(folded)
+
+
+def mark_choices(section):
+    """Mark the list before an answer as choices, if a prediction asks for them."""
+    before = section.parent.children[: section.parent.index(section)]
+    if len(before) > 1 and isinstance(before[-1], nodes.bullet_list):
+        if before[-2].astext().startswith(PREDICT):
+            before[-1]["classes"].append("choices")
 
 
 def visit_fold(writer, node):

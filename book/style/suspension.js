@@ -42,3 +42,24 @@ addEventListener("click", (event) => {
   if (button?.dataset.click === "window.print()") print();
   if (button?.dataset.click === "toggleFullScreen()") toggleFullScreen();
 });
+
+// The choices of a prediction: the one that is tapped stays marked, and opens the answer below.
+addEventListener("DOMContentLoaded", () => {
+  for (const list of document.querySelectorAll("article ul.choices")) {
+    const buttons = [...list.children].map((item) => {
+      const button = document.createElement("button"),
+        words = item.querySelector("p") ?? item;
+      button.type = "button";
+      button.setAttribute("aria-pressed", "false");
+      button.append(...words.childNodes);
+      item.replaceChildren(button);
+      return button;
+    });
+    for (const button of buttons) {
+      button.addEventListener("click", () => {
+        for (const other of buttons) other.setAttribute("aria-pressed", other === button);
+        list.nextElementSibling.open = true;
+      });
+    }
+  }
+});

@@ -21,6 +21,7 @@ from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
+from suspension.explorer.predict import Prediction
 from suspension.explorer.settings import (
     CLOSE,
     CURVE,
@@ -42,7 +43,17 @@ from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 from suspension.simulation import simulate
 
-__all__ = ["DTS", "SCHEMES", "Explorer", "ExplorerBox", "explore", "page_script", "page_style"]
+__all__ = [
+    "DTS",
+    "SCHEMES",
+    "Explorer",
+    "ExplorerBox",
+    "Prediction",
+    "explore",
+    "page_script",
+    "page_style",
+    "prediction_script",
+]
 
 PAGE = Path(__file__).parent / "page"
 NUMBERS = tuple(control.trait for control in CONTROLS)
@@ -323,8 +334,13 @@ def page_script():
     return f"(() => {{\n{bundle(PAGE, 'page')}}})();\n"
 
 
+def prediction_script():
+    """The script, a classic one, that brings every prediction of a page to life."""
+    return f"(() => {{\n{bundle(PAGE, 'predict_page')}}})();\n"
+
+
 def page_style():
-    """The style sheet of a page with explorers."""
+    """The style sheet of a page with explorers or predictions."""
     return Explorer._css
 
 

@@ -120,7 +120,7 @@ class Family:
         far = _round_up(2 * abs(height) or sigma)
         return {
             "dt": Range(DTS[0], DTS[-1], True),
-            "k": Range(max(min(200.0, 0.4 * k), 0.1 * k), min(max(2500.0, 2 * k), 10 * k), True),
+            "k": Range(max(min(150.0, 0.4 * k), 0.1 * k), min(max(2500.0, 2 * k), 10 * k), True),
             "c": Range(0.0, max(_round_up(damping), 2 * own["c"])),
             "height": Range(-far, 0.0) if height < 0 else Range(0.0, far),
             "sigma": Range(_round_down(0.4 * sigma), _round_up(3.3 * sigma), True),

@@ -16,7 +16,16 @@ from suspension.forces import WHEEL
 from suspension.least_force import minima
 from suspension.report.words import join, quantity
 
-__all__ = ["RUN_NOTEBOOK", "critical", "draw", "knows_all_speeds", "picture", "still"]
+__all__ = [
+    "RUN_NOTEBOOK",
+    "critical",
+    "draw",
+    "knows_all_speeds",
+    "picture",
+    "still",
+    "still_image",
+    "svg",
+]
 
 DEFINITIONS = re.compile(r"<defs>.*?</defs>", re.DOTALL)  # the letters' shapes
 PATH = re.compile(r'(?<= d=")[^"]*')
@@ -24,10 +33,10 @@ NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 SPEEDS = 90
 FAR = 4  # times the usual way
-RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to drive it."
+RUN = "A still picture: run the notebook (Run &gt; Run All Cells) to {}."
 # What a notebook says below it, and hides if it has no kernel: that there is no widget.
 RUN_NOTEBOOK = (
-    f'<p class="se-run"><strong>{RUN}</strong></p>'
+    f'<p class="se-run"><strong>{RUN.format("drive it")}</strong></p>'
     "<style>.jp-OutputArea-child:has(.suspension-explorer-still) + .jp-OutputArea-child > "
     ".jupyter-widgets:not(:has(*)) { display: none; }</style>"
 )
@@ -36,31 +45,36 @@ RUN_NOTEBOOK = (
 def draw(explorer):
     """The panels as SVG, once the explorer knows its critical speeds."""
     if explorer.compact == "chart":
-        return _svg(draw_chart(explorer))
+        return svg(draw_chart(explorer))
     if explorer.compact == "race":
-        return _svg(_race(explorer))
+        return svg(_race(explorer))
     run = explorer.trajectory()
-    return _svg(_compact(explorer, run) if explorer.compact else _panels(explorer, run))
+    return svg(_compact(explorer, run) if explorer.compact else _panels(explorer, run))
 
 
 def still(explorer, drawn):
     """What was drawn as an HTML image, with a text for those who cannot see it."""
-    source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
     if explorer.compact == "chart":
         text = describe_chart(explorer)
     elif explorer.compact == "race":
         text = _describe_race(explorer)
     else:
         text = _describe(explorer, explorer.trajectory())
+    return still_image(drawn, text)
+
+
+def still_image(drawn, text):
+    """An SVG as an HTML image that stands in a page until its scripts run."""
+    source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
     return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
 
 
-def picture(drawn):
+def picture(drawn, to="drive it"):
     """What was drawn, with what to do to drive it written below."""
     width, height = map(float, SIZE.search(drawn).groups())
     words = (
         f'<text x="{width / 2:g}" y="{height + 15:g}" text-anchor="middle" '
-        f'font-family="sans-serif" font-size="12" font-weight="bold">{RUN}</text>'
+        f'font-family="sans-serif" font-size="12" font-weight="bold">{RUN.format(to)}</text>'
     )
     svg = drawn.replace(
         f'viewBox="0 0 {width:g} {height:g}"', f'viewBox="0 0 {width:g} {height + 24:g}"'
@@ -90,7 +104,7 @@ def _speeds(explorer):
     return np.geomspace(reach.low, reach.high, SPEEDS)
 
 
-def _svg(figure):
+def svg(figure):
     """A figure as SVG; lines are exact to a hundredth of a point, the letters as they are."""
     picture = io.StringIO()
     with plt.style.context("suspension.figures.report"):

@@ -12,8 +12,8 @@ from suspension.figures.choice import (
     plot_front,
     plot_gains,
     plot_margins,
+    plot_rides,
     plot_ripples,
-    plot_rms,
     plot_rough_ride,
 )
 from suspension.figures.errors import plot_errors, plot_heave, plot_missed_dip, plot_seen_mode
@@ -32,7 +32,13 @@ from suspension.figures.regression import (
 )
 from suspension.figures.robot import RobotDrawing, animate_robot, film, plot_contact_states
 from suspension.figures.signals import plot_pitch, plot_road_signal, plot_slopes
-from suspension.figures.similarity import plot_chart, plot_comb, plot_vehicles, plot_window
+from suspension.figures.similarity import (
+    plot_chart,
+    plot_comb,
+    plot_paths,
+    plot_vehicles,
+    plot_window,
+)
 from suspension.figures.speeds import (
     plot_margin,
     plot_margin_map,
@@ -71,10 +77,11 @@ __all__ = [
     "plot_measured_run",
     "plot_missed_dip",
     "plot_near_zero",
+    "plot_paths",
     "plot_pitch",
     "plot_residuals",
+    "plot_rides",
     "plot_ripples",
-    "plot_rms",
     "plot_road_signal",
     "plot_rough_ride",
     "plot_sampled_margin",

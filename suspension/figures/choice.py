@@ -11,8 +11,8 @@ __all__ = [
     "plot_front",
     "plot_gains",
     "plot_margins",
+    "plot_rides",
     "plot_ripples",
-    "plot_rms",
     "plot_rough_ride",
 ]
 
@@ -192,29 +192,33 @@ def plot_rough_ride(x, H, places, N, axes):
     return axes
 
 
-def plot_rms(v, curves, points, load, ax=None):
-    """Root mean square of a wheel's force against speed.
+def plot_rides(v, curves, asked, force, air, load, axes):
+    """Rides on many roads: how a wheel's force scatters, and how long it is in the air.
 
     Parameters
     ----------
     v : array_like, shape (n,)
         Speeds, m/s.
-    curves : dict of str to list of array_like, shape (n,)
-        For each suspension by name the curves of several roads, from smooth to rough, N.
-    points : tuple of array_like
-        Speeds and root mean squares of runs, N.
+    curves : dict of str to array_like, shape (n,)
+        For each suspension by name the root mean square of the linear robot's force, N.
+    asked : sequence of float
+        Speeds of the rides, m/s.
+    force, air : array_like, shape (roads, suspensions, speeds)
+        Root mean squares, N, and parts of the time.
     load : float
         The force at rest, N.
+    axes : two Axes
     """
-    ax = axes_or_new(ax)
-    for i, (name, roads) in enumerate(curves.items()):
-        for j, curve in enumerate(roads):
-            label = name if j == 0 else None
-            ax.plot(v, curve, color=f"C{i}", ls=LINES[i], lw=1 + 0.3 * j, label=label)
-    ax.plot(*points, "o", color="k", mfc="white", ms=5, label="long runs")
-    ax.axhline(load, color="0.3", lw=1)
-    ax.axhline(load / 3, color="0.3", lw=1, ls=":")
-    speed_axis(ax, v)
-    ax.set(yscale="log", ylabel="force, root mean square (N)")
-    ax.legend()
-    return ax
+    for i, (name, curve) in enumerate(curves.items()):
+        places = np.asarray(asked) * (0.96 if i % 2 == 0 else 1.04)  # side by side
+        style = {"color": f"C{i}", "ms": 3.5, "alpha": 0.6, "mew": 0}
+        axes[0].plot(v, curve, color=f"C{i}", ls=LINES[i], label=f"{name}: linear")
+        for ax, values in zip(axes, (force, 100 * np.asarray(air))):
+            dots = ax.plot(places, np.asarray(values)[:, i].T, MARKERS[i], ls="", **style)
+            dots[0].set_label(f"{name}: rides")
+    axes[0].axhline(load, color="0.3", lw=1)
+    for ax in axes:
+        speed_axis(ax, v)
+    axes[0].set(yscale="log", ylabel="force, root mean square (N)")
+    axes[1].set(ylabel="rear wheel in the air (%)", ylim=(-2, None))
+    return axes

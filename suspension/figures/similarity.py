@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from suspension.figures.style import COLOURS, LINES, axes_or_new
 
-__all__ = ["plot_chart", "plot_comb", "plot_vehicles", "plot_window"]
+__all__ = ["empty_axes", "plot_chart", "plot_comb", "plot_paths", "plot_vehicles", "plot_window"]
 
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
@@ -114,6 +114,22 @@ def _bump_across(ax, eta, asked, lost, critical, kept):
     ax.legend(loc="lower left", bbox_to_anchor=(0.02, 0.1), frameon=True, edgecolor="none")
 
 
+def empty_axes(x, y, names, ax=None):
+    """Empty logarithmic axes, with a grid, to draw on.
+
+    Parameters
+    ----------
+    x, y : pair of float
+        Their ends.
+    names : (str, str)
+        What they count.
+    """
+    ax = _chart_axes(axes_or_new(ax), x, y)
+    ax.set(xlabel=names[0], ylabel=names[1])
+    ax.grid(color="0.85", lw=0.6)
+    return ax
+
+
 def plot_comb(nu, exact, comb, alone, throw, ax=None):
     """What the wheelbase does to an undamped robot.
 
@@ -131,6 +147,44 @@ def plot_comb(nu, exact, comb, alone, throw, ax=None):
     ax.plot(nu, exact, color="C0", lw=3.2, alpha=0.6, label="exact")
     ax.plot(nu, comb, color="k", ls=":", lw=1.6, label="comb, by formula")
     ax.legend(loc="upper left")
+    return ax
+
+
+def plot_paths(limits, curves, points, asked, heights=(0.03, 30), ax=None):
+    """A choice on the chart: at each speed, springs are the places on a line of slope -2.
+
+    Parameters
+    ----------
+    limits : dict of str to (ndarray, ndarray), shapes (n,)
+        By name, dimensionless speeds and the highest bump over the sag, drawn dashed.
+    curves : dict of str to (ndarray, ndarray), shapes (n,)
+        For each suspension by name the same, exact.
+    points : dict of str to (ndarray, float, ndarray)
+        For each suspension its dimensionless speeds, shape (m,), the height of the bump over its
+        sag, and whether contact is lost at each.
+    asked : sequence of float
+        The m speeds, m/s.
+    """
+    nu = np.concatenate([speeds for speeds, _ in curves.values()])
+    ax = _chart_axes(axes_or_new(ax), (nu.min(), nu.max()), heights)
+    ends = np.array(ax.get_xlim())
+    first, eta, _ = next(iter(points.values()))
+    for v, speed in zip(asked, first):
+        ax.plot(ends, eta * (speed / ends) ** 2, color="0.75", lw=1, zorder=1)
+        top = speed * np.sqrt(eta / heights[1])
+        ax.text(max(top, ends[0]), heights[1], f"{v:g} m/s", fontsize=8, va="bottom", ha="center")
+    for name, (speeds, height) in limits.items():
+        ax.plot(speeds, height, color="0.35", lw=1, ls="--", zorder=2)
+        _along(ax, speeds, height, name, color="0.25", fontsize=9.5, style="italic")
+    for i, (name, (speeds, height)) in enumerate(curves.items()):
+        ax.plot(speeds, height, color=f"C{i}", ls=LINES[i], lw=2, label=name, zorder=3)
+        speeds, eta, lost = points[name]
+        for gone, face in ((False, "white"), (True, f"C{i}")):
+            marks = {"mec": f"C{i}", "mfc": face, "mew": 1.8, "ms": 7, "zorder": 4}
+            ax.plot(speeds[lost == gone], np.full(np.sum(lost == gone), eta), "o", ls="", **marks)
+    ax.plot([], [], "o", mfc="0.4", mec="0.4", ls="", label="lost")
+    ax.plot([], [], "o", mfc="white", mec="0.4", ls="", label="kept")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4)
     return ax
 
 

@@ -25,13 +25,11 @@ __all__ = [
     "modes",
     "phase_error",
     "road_caption",
-    "swing",
 ]
 
 LIGHT = 0.2  # a damping ratio below it is called light
 APPRECIABLE = 0.01  # a change by less than this part of the largest pitch is not
 AS_EXPECTED = 0.05  # how far, relatively, an observed factor may be from the promised one
-LONG = 0.25  # part of a swing beyond which a step does not follow it
 ROUNDOFF = 1e-9  # part of the largest error, below which an error is none
 TOGETHER = 0.02  # an error by less than this part of the largest pitch cannot be seen
 
@@ -94,25 +92,6 @@ def road_caption(speeds):
     return Caption(text, alt)
 
 
-def swing(robot, scheme, dt):
-    """How much of the fastest swing one step of `dt` seconds takes."""
-    stable = scheme.is_stable(robot.eigenvalues, dt)
-    start = "Stable does not mean accurate." if stable else "Not even stable."
-    part = dt * robot.eigenvalues.imag.max() / (2 * np.pi)
-    if part == 0:
-        return (
-            f"{start} None of the modes swings: what a step of {dt:g} s gets wrong is how they "
-            "creep back."
-        )
-    value = "the swing is still followed, coarsely"
-    if part > LONG:
-        value = "what the method computes there is bounded, and wrong"
-    return (
-        f"{start} A step of {quantity(dt, 's', 1)} spans {number(part, 2)} swings of the "
-        f"fastest mode: {value}. [The appendix](../notebooks/20-accuracy.ipynb) measures how wrong."
-    )
-
-
 def coarse_caption(run, exact):
     """Caption of the pitch by very long steps beside the `exact` one at their times, rad."""
     many = count(len(run.T) - 1, "step")
@@ -166,25 +145,20 @@ def _factor(runs, exact):
     """Whether the error falls by the expected factor, at the end and over the whole run."""
     coarse, fine = (np.abs(run.W[2] - theta) for run, theta in zip(runs, exact))
     expected = 2 ** runs[0].scheme.order
-    at_end, overall = coarse[-1] / fine[-1], coarse.max() / fine.max()
-    end_fits, run_fits = (abs(x / expected - 1) <= AS_EXPECTED for x in (at_end, overall))
-    end = rf"at $t_\text{{final}}$ it falls by a factor of {fixed(at_end, 2)}"
-    run = f"the largest error of the whole run by {fixed(overall, 3)}"
-    promise = f"a method of second order promises {expected}"
+    overall = coarse.max() / fine.max()
+    run = (
+        f"the largest error of the whole run falls by a factor of {fixed(overall, 3)}, where a "
+        f"method of second order promises {expected}"
+    )
+    verdict = "Yes*" if abs(overall / expected - 1) <= AS_EXPECTED else "No*"
     if coarse[-1] < ROUNDOFF * coarse.max():
-        verdict = "Yes" if run_fits else "No"
-        return f"{verdict}*: {run}; {promise}. At the end the robot is at rest, and no error left."
-    if end_fits and run_fits:
-        return f"Yes*: {end}, {run}; {promise}."
-    if run_fits:
-        return (
-            f"Yes, over the whole run*: {run}, where {promise}. The one instant misleads: {end}, "
-            f"where the error happens to be only {percent(coarse[-1] / coarse.max())} of its "
-            "largest value."
-        )
-    if end_fits:
-        return f"Not over the whole run*: {end}, but {run}; {promise}."
-    return f"No*: {end} and {run}, where {promise}; the steps are too long for that."
+        return f"{verdict}: {run}. At the end the robot is at rest, and no error left."
+    at_end = coarse[-1] / fine[-1]
+    text = rf"{verdict}: {run}, and the error at $t_\text{{final}}$ by {fixed(at_end, 2)}."
+    if abs(at_end / expected - 1) > AS_EXPECTED:
+        part = percent(coarse[-1] / coarse.max())
+        text += f" The one instant misleads: there the error is {part} of its largest value."
+    return text
 
 
 def phase_error(robot, run, exact):

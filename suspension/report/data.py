@@ -16,7 +16,6 @@ from suspension.report.words import (
 from suspension.springs import is_synthetic
 
 __all__ = [
-    "bump_rows",
     "caution",
     "consequence_rows",
     "data_rows",
@@ -25,28 +24,17 @@ __all__ = [
     "made_sentence",
     "question_rows",
     "read_sentence",
-    "robot_rows",
     "slope_sentence",
     "source_sentence",
     "speed_digits",
+    "speed_row",
     "stiffness_rows",
     "stiffness_sentence",
     "synthetic_note",
 ]
 
+SPEED_ROW = "critical speed (m/s)", f"95{SPACE}% interval (m/s)", "note"
 BETRAYED = "../notebooks/01-regression.ipynb#what-would-betray-a-wrong-model"
-SYMBOLS = {
-    "g": ("$g$", "m/s²", "gravity"),
-    "m": ("$m$", "kg", "mass of the half-robot"),
-    "Izz": ("$I_{zz}$", "kg m²", "its moment of inertia about the centre of mass"),
-    "L1": ("$L_1$", "m", "centre of mass to rear wheel"),
-    "L2": ("$L_2$", "m", "centre of mass to front wheel"),
-    "c1": ("$c_1$", "N s/m", "rear pair of dampers"),
-    "c2": ("$c_2$", "N s/m", "front pair of dampers"),
-    "height": ("$h_0$", "m", "height of the bump"),
-    "sigma": (r"$\sigma$", "m", "its width"),
-    "centre": ("$x_0$", "m", "place of its top"),
-}
 
 
 # --- what was read ----------------------------------------------------------------------------
@@ -107,60 +95,26 @@ def _decimals(values):
 # --- what this copy of the book is about ------------------------------------------------------
 
 
-def robot_rows(table_1, fit):
-    """Table 1 with the stiffness that was put into it.
-
-    Parameters
-    ----------
-    table_1 : dict of str to float
-        SI units.
-    fit : SpringFit
-    """
-    stiffness = {
-        "symbol": "$k_1 = k_2$",
-        "value": quantity(fit.stiffness, "N/m", 4),
-        "meaning": "a pair of springs, from Question 1",
-    }
-    return [*_facts(table_1), stiffness]
-
-
-def bump_rows(bump):
-    """What the bump is made of."""
-    return _facts({name: getattr(bump, name) for name in ("height", "sigma", "centre")})
-
-
-def _facts(values):
-    return [
-        {
-            "symbol": SYMBOLS[name][0],
-            "value": f"{value:g}{SPACE}{SYMBOLS[name][1]}".replace("-", "−"),
-            "meaning": SYMBOLS[name][2],
-        }
-        for name, value in values.items()
-    ]
-
-
 def question_rows(speeds, steps, halved_steps, duration, distance):
     """The numbers of the questions: speeds in m/s, steps and duration in s, distance in m."""
-    return [
-        _question("speeds over the bump", speeds, "m/s", "2, 3, 6 and 10"),
-        _question("steps that may be unstable", steps, "s", "4, 7 and 9"),
-        _question("steps that are compared", halved_steps, "s", "5 and 6"),
-        _question("length of a free motion", [duration], "s", "5 and 9"),
-        _question("way of a run", [distance], "m", "6 and 10"),
+    asked = [
+        ("speeds over the bump", speeds, "m/s", "2, 3, 6 and 10"),
+        ("steps that may be unstable", steps, "s", "4, 7 and 9"),
+        ("steps that are compared", halved_steps, "s", "5 and 6"),
+        ("length of a free motion", [duration], "s", "5 and 9"),
+        ("way of a run", [distance], "m", "6 and 10"),
     ]
-
-
-def _question(name, values, unit, questions):
-    listed = join([f"{value:g}" for value in values]) + SPACE + unit
-    return {"what": name, "value": listed, "questions": questions}
+    return [
+        {"what": what, "value": join(f"{x:g}" for x in values) + SPACE + unit, "questions": where}
+        for what, values, unit, where in asked
+    ]
 
 
 def synthetic_note(data):
-    """A short sentence for any page, empty if the data are not synthetic."""
-    if not is_synthetic(data):
-        return ""
-    return "The spring data are synthetic: they stand in for measurements that are not public."
+    """A short sentence for any page: on which spring its numbers rest."""
+    if is_synthetic(data):
+        return "The spring data are synthetic: they stand in for measurements that are not public."
+    return "The spring is one that was measured, not the synthetic one of this project."
 
 
 def made_sentence(data):
@@ -259,32 +213,15 @@ def stiffness_sentence(fit, load):
         The force that one pair of springs carries at rest, N.
     """
     parts = [
-        "Question 1 asks for the slope of the parabola at zero, where the spring carries nothing."
+        "Question 1 asks for the slope of the parabola at zero, where the spring carries nothing.",
+        "The data do not contradict a line through the origin: who accepts it takes its slope."
+        if fit.linearity().linear
+        else "The data contradict a line through the origin, so the slope of the best such line is "
+        "no more than a mean over the measured range.",
+        _at_rest(fit, load),
+        caution(fit, "The intervals"),
     ]
-    if fit.linearity().linear:
-        parts.append(
-            "The data do not contradict a line through the origin. Who accepts that line should "
-            f"take its slope, {_with_interval(fit.line)}{_narrower(fit)}."
-        )
-    else:
-        parts.append(
-            "The data contradict a line through the origin, so the slope of the best such line is "
-            "no more than a mean over the measured range."
-        )
-    parts += [_at_rest(fit, load), caution(fit, "The intervals")]
     return " ".join(filter(None, parts))
-
-
-def _with_interval(stiffness):
-    value = _stiffness(stiffness.value, stiffness.error)
-    return f"{value}{SPACE}N/m ({_interval(stiffness)})"
-
-
-def _narrower(fit):
-    if _exact(fit.line):
-        return ""
-    times = np.ptp(fit.slope.interval()) / np.ptp(fit.line.interval())
-    return f", whose interval is {number(times, 2)} times narrower" if times > 1.1 else ""
 
 
 def _at_rest(fit, load):
@@ -292,14 +229,11 @@ def _at_rest(fit, load):
     half = f"half of its weight, {quantity(load, 'N')}"
     if tangent is None:
         return f"The fitted parabola bends down before it carries {half}: it has no tangent there."
-    where = f"$\\delta/\\delta_{{\\max}}$ = {fixed(fit.displacement(load), 3)}"
-    sentence = (
-        f"The robot swings about its rest, where each pair carries {half}, at {where}; the "
-        f"tangent there is {_with_interval(tangent)}, {_compared(tangent, fit.slope)}."
+    extrapolated = ", an extrapolation" if "outside" in _static(fit, load) else ""
+    return (
+        f"The robot swings about its rest, where each pair carries {half}; the tangent there"
+        f"{extrapolated} is {_compared(tangent, fit.slope)}."
     )
-    if "outside" in _static(fit, load):
-        sentence += " That displacement lies outside the measured range: it is an extrapolation."
-    return sentence
 
 
 def _compared(tangent, slope):
@@ -373,28 +307,23 @@ def consequence_rows(by_stiffness):
     rows = []
     for stiffness, speeds in by_stiffness:
         name = f"{stiffness.name}, {_stiffness(stiffness.value, stiffness.error)}{SPACE}N/m"
-        for critical in speeds:
-            rows.append(_consequence(name, critical))
-        if not speeds:
-            rows.append(_row(name, "none", "–", "–"))
+        told = [speed_row(critical) for critical in speeds] or [dict.fromkeys(SPEED_ROW, "–")]
+        rows += [{"stiffness": name, **row} for row in told]
     return rows
 
 
-def _consequence(name, critical):
+def speed_row(critical):
+    """A critical speed, its interval, and where in that of the stiffness it exists.
+
+    Parameters
+    ----------
+    critical : suspension.uncertainty.CriticalSpeed
+    """
     low, high = critical.low, critical.high
     digits = speed_digits(low, high)
-    at_estimate = "–" if critical.speed is None else number(critical.speed, digits)
+    speed = "–" if critical.speed is None else number(critical.speed, digits)
     ends = f"{number(low, digits)} to {number(high, digits)}"
-    return _row(name, at_estimate, ends, existence(critical) or "–")
-
-
-def _row(name, speed, ends, note):
-    return {
-        "stiffness": name,
-        "critical speed (m/s)": speed,
-        f"95{SPACE}% interval (m/s)": ends,
-        "note": note,
-    }
+    return dict(zip(SPEED_ROW, (speed, ends, existence(critical) or "–")))
 
 
 def speed_digits(low, high):

@@ -48,6 +48,7 @@ __all__ = [
 ]
 
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
+CLOSE = 1e-3  # critical speeds of different runs agree within this part
 KINK = 2.6  # an order below this is that of a kink, with its scatter
 OPEN, SIGNED = "open", {True: "lost", False: "kept"}
 
@@ -90,13 +91,11 @@ def statics_table(laws, robot):
         )
         if at_rest > 1:
             beyond.append(name)
-    if not beyond:
-        return table(rows)
     note = (
         rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on: {join(beyond)}. With a stop it "
         "stands on it before it has driven a step."
     )
-    return f"{table(rows)}\n\n{note}"
+    return f"{table(rows)}\n\n{note}" if beyond else table(rows)
 
 
 # --- verdicts and critical speeds -----------------------------------------------------------------
@@ -166,7 +165,9 @@ def aftermath_table(asked, runs, delta_max):
             "law": name,
             "acceleration (m/s²)": number(run.acceleration[i]),
             r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
-            "in the air: rear, front (ms)": ", ".join(_air(t) for t in run.airtime[:, i]),
+            "in the air: rear, front (ms)": ", ".join(
+                fixed(1000 * t, 1) if t else "–" for t in run.airtime[:, i]
+            ),
             "flights": str(run.flights[:, i].sum()),
         }
         for i, v in enumerate(asked)
@@ -177,10 +178,6 @@ def aftermath_table(asked, runs, delta_max):
         return "No law loses contact at an asked speed."
     note = "Largest values of the whole way, and what both wheels spend in the air."
     return f"{table(rows)}\n\n{note}"
-
-
-def _air(seconds):
-    return fixed(1000 * seconds, 1) if seconds else "–"
 
 
 def margins_caption(critical):
@@ -303,20 +300,16 @@ def order_caption(v, orders):
 
 
 def order_sentence(orders):
-    """What the stop does to the order; `orders` by law, without a stop first."""
+    """What the stop does to the order; `orders` by law, the stiffest stop last."""
     if not orders:
         return "The errors are too small to show an order."
     each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
-    first, *others = orders.values()
-    if max(orders.values()) < KINK:
-        what = "On the stop the order is [that of a kink](07-flight.ipynb#one-bad-step), two."
-    elif first > KINK > max(others, default=first):
+    what = "With these steps the kink does not show."
+    if list(orders.values())[-1] < KINK:
         what = (
-            "A stop is a kink of the force, and a kink costs RK4 its order: "
-            "[two is what is left](07-flight.ipynb#one-bad-step)."
+            "A stop is a kink of the force, and [two is what a kink leaves]"
+            "(07-flight.ipynb#one-bad-step)."
         )
-    else:
-        what = "With these steps the kink does not show everywhere."
     return f"Observed orders: {each}. {what}"
 
 
@@ -348,10 +341,7 @@ def power_table(curvature, noticed, moved):
 
 
 def draws_sentence(kept, drawn, linear):
-    """How many coefficients were drawn, and how many of them are those of a spring.
-
-    `linear` says whether the readings do not contradict a line without preload.
-    """
+    """How many draws are those of a spring; `linear`: the readings do not contradict a line."""
     words = f"{drawn} draws of the three coefficients at once"
     if kept == drawn:
         words += "; in every one of them the force grows up to the stop."
@@ -380,18 +370,20 @@ def critical_table(study):
     note = (
         "*Found*: in how many of the draws the margin changes its sign within a factor "
         f"{REACH:g}. Where that is not in all of them the interval is that of those in which it "
-        "is, and has no confidence level of its own."
+        "is, and has no confidence level of its own. A dash: another critical speed is too near "
+        "for them to be told apart."
     )
     return f"{table(rows)}\n\n{note}"
 
 
 def _critical_row(name, v, followed):
     there = followed[np.isfinite(followed)]
-    ends = np.quantile(there, [0.025, 0.975]) if there.size else ()
+    low, high = np.quantile(there, [0.025, 0.975]) if there.size else (np.nan, np.nan)
+    around = low * (1 - CLOSE) <= v <= high * (1 + CLOSE)
     return {
         "law": name,
         "critical speed (m/s)": number(v, 4),
-        "95 % interval (m/s)": " to ".join(number(x, 4) for x in ends) or "–",
+        "95 % interval (m/s)": f"{number(low, 4)} to {number(high, 4)}" if around else "–",
         "found": f"{there.size} of {followed.size}",
     }
 
@@ -455,18 +447,20 @@ def _open(study):
     unsure = _signed(study, None)
     beyond = np.extract(study.turned & study.touched, study.asked)
     decided = [v for v in unsure if v in beyond]
+    near = [v for v in unsure if v not in decided]
+    where = rf"$\delta_{{\max{{}}}}$ = {fixed(1000 * study.delta_max, 1)}{SPACE}mm"
+    words = []
     if decided:
-        where = rf"$\delta_{{\max{{}}}}$ = {fixed(1000 * study.delta_max, 1)}{SPACE}mm"
-        return (
+        words.append(
             f"At {speed_list(decided)} the verdict is **open**: it is decided by what the spring "
             f"does beyond {where}, and of that there is not one reading."
         )
-    if unsure:
-        return (
-            f"At {speed_list(unsure)} the verdict is **open**: the margin is too near to zero for "
+    if near:
+        words.append(
+            f"At {speed_list(near)} the verdict is **open**: the margin is too near to zero for "
             "these readings."
         )
-    return "None of the asked verdicts is left open by these four laws."
+    return " ".join(words) or "None of the asked verdicts is left open by these four laws."
 
 
 def _readings_or_law(study):

@@ -11,7 +11,7 @@ import numpy as np
 
 from suspension.contact import is_lost
 from suspension.forces import WHEEL
-from suspension.report.data import existence, speed_digits
+from suspension.report.data import speed_digits, speed_row
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -25,7 +25,6 @@ from suspension.report.words import (
     percent,
     quantity,
     ranges,
-    small_angle,
     speed_list,
 )
 
@@ -38,7 +37,6 @@ __all__ = [
     "critical_table",
     "doubt",
     "full_geometry",
-    "landing_data",
     "landing_opening",
     "lesson",
     "map_caption",
@@ -46,7 +44,6 @@ __all__ = [
     "other_readings",
     "sensitivity_caption",
     "stronger_dampers",
-    "strongest",
     "travel_caption",
     "verdict",
 ]
@@ -89,11 +86,6 @@ def landing_opening(regimes):
     }
     answer = answers.get(tuple(regimes.lost.tolist()), "The answer is stranger.")
     return f"One would expect: above some speed. {answer}"
-
-
-def landing_data(note):
-    """On which spring the numbers rest; `note` says that the data are synthetic, or is empty."""
-    return note or "The spring is one that was measured, not the synthetic one of this project."
 
 
 def verdict(regimes, beyond=()):
@@ -159,19 +151,14 @@ def _further(times):
 
 def margin_caption(regimes, beyond, asked=()):
     """Caption of the least forces against speed."""
-    text = "The exact least force of each wheel against speed."
-    if regimes.lost.any():
-        text += " Where either is negative (marked *lost*) a wheel leaves the ground."
-    if len(regimes.critical):
-        one = len(regimes.critical) == 1
-        text += " Diamond: the critical speed." if one else " Diamonds: the critical speeds."
-    if len(asked):
-        text += f" {_circles(asked)}: the {count(len(asked), 'speed')} of the problem set."
-    if len(beyond):
-        text += (
-            r" Hatched: a spring is compressed beyond $\delta_{\max}$, the largest displacement at "
-            "which it was measured."
-        )
+    marks = [
+        ("shaded and marked *lost*: a wheel leaves the ground", regimes.lost.any()),
+        ("diamonds: critical speeds", len(regimes.critical)),
+        ("circles: speeds of the problem set", len(asked)),
+        (r"hatched: a spring is compressed further than measured, $\delta_{\max}$", len(beyond)),
+    ]
+    drawn = "; ".join(mark for mark, there in marks if there)
+    text = "The exact least force of each wheel against speed"
     alt = (
         "Least normal force of the rear and the front wheel against speed on a logarithmic axis. "
         f"Contact is {ranges(regimes)}."
@@ -179,11 +166,7 @@ def margin_caption(regimes, beyond, asked=()):
     where = beyond_words(regimes, beyond)
     if where:
         alt += f" Hatched {where}: there a spring is compressed further than it was measured."
-    return Caption(text, alt)
-
-
-def _circles(asked):
-    return "Circle" if len(asked) == 1 else "Circles"
+    return Caption(f"{text} ({drawn})." if drawn else f"{text}.", alt)
 
 
 def balance_table(critical, balances):
@@ -197,9 +180,8 @@ def balance_table(critical, balances):
     """
     if not len(critical):
         return "There is no critical speed in the range, and so no balance of this kind."
-    rows = []
-    for parts, name in zip(balances, distinct(critical), strict=True):
-        rows.append(
+    return table(
+        [
             {
                 "critical speed (m/s)": name,
                 "wheel": WHEEL[parts.wheel],
@@ -207,25 +189,13 @@ def balance_table(critical, balances):
                 "damper (N)": fixed(parts.damper, 2),
                 "what happens": "the damper pulls" if parts.pulled else "the body is thrown",
             }
-        )
-    pulled = [v for v, parts in zip(critical, balances) if parts.pulled]
-    thrown = [v for v, parts in zip(critical, balances) if not parts.pulled]
-    words = []
-    if thrown:
-        words.append(
-            f"At {speed_list(thrown)} the spring has all but reached its full length when the "
-            "force vanishes: the body has risen away from the wheel."
-        )
-    if pulled:
-        words.append(
-            f"At {speed_list(pulled)} the spring is still compressed, and pushes; it is the "
-            "damper that takes away what the spring gives."
-        )
-    return "\n\n".join([table(rows), " ".join(words)])
+            for parts, name in zip(balances, distinct(critical), strict=True)
+        ]
+    )
 
 
 def stronger_dampers(before, after, still):
-    """What dampers twice as strong do, beside what the body that does not move says of them.
+    """What dampers twice as strong do to the verdicts, and to a wheel under a body that is still.
 
     Parameters
     ----------
@@ -234,33 +204,17 @@ def stronger_dampers(before, after, still):
     still : pair of float
         Speeds, m/s, at which a wheel is pulled off under a body that does not move, before, after.
     """
-    own, left = _window(before), _window(after)
-    if own is None:
-        return f"With dampers twice as strong contact is {ranges(after)}."
-    low, high = map(number, own)
-    safer = f"in which faster is safer, from {low} to {high}{SPACE}m/s,"
-    if left is None:
-        return (
-            "The robot's own body does move meanwhile, and what is left of the range "
-            f"{safer} is nothing: with dampers twice as strong contact is {ranges(after)}."
-        )
-    becomes = "shrinks" if left[1] / left[0] < own[1] / own[0] else "changes"
-    return (
-        "The robot's own body does move meanwhile. Its last critical speed goes from "
-        f"{high} to {number(left[1])}{SPACE}m/s, by a factor of {number(own[1] / left[1], 2)} "
-        f"where the body held still has {number(still[0] / still[1], 2)}, and the range {safer} "
-        f"{becomes} to that from {number(left[0])} to {number(left[1])}{SPACE}m/s."
+    names = "the robot's own", "twice as strong"
+    return table(
+        [
+            {
+                "dampers": name,
+                "contact is": ranges(found),
+                "under a still body, lost from (m/s)": number(v),
+            }
+            for name, found, v in zip(names, (before, after), still, strict=True)
+        ]
     )
-
-
-def _window(regimes):
-    """The last range in which contact is kept, if it is lost before and after; else None."""
-    spans = [
-        span
-        for span in regimes.spans(lost=False)
-        if span[0] > regimes.edges[0] and span[1] < regimes.edges[-1]
-    ]
-    return spans[-1] if spans else None
 
 
 def critical_table(intervals, full):
@@ -286,25 +240,15 @@ def critical_table(intervals, full):
     return f"{table(rows)}\n\n{note}"
 
 
-def _digits(critical):
-    """How many digits of a critical speed its interval leaves."""
-    relative = (critical.high - critical.low) / critical.high
-    return int(np.clip(1 + np.ceil(-np.log10(relative)), 3, 6)) if relative > 0 else 4
-
-
 def _critical_row(critical, full):
     speed, low, high = critical.speed, critical.low, critical.high
-    digits = _digits(critical)
     half = "–"
     if speed is not None and critical.everywhere:
         half = percent((high - low) / 2 / speed) if high > low else "0"
-    return {
-        "critical speed (m/s)": "–" if speed is None else number(speed, digits),
-        "95 % interval (m/s)": f"{number(low, digits)} to {number(high, digits)}",
-        "relative half-width": half,
-        "in the full geometry (m/s)": "–" if full is None else number(full, digits),
-        "note": existence(critical) or "–",
-    }
+    moved = "–" if full is None else number(full, speed_digits(low, high))
+    row = speed_row(critical)
+    note = row.pop("note")
+    return row | {"relative half-width": half, "in the full geometry (m/s)": moved, "note": note}
 
 
 def full_geometry(intervals, full):
@@ -318,68 +262,54 @@ def full_geometry(intervals, full):
     pairs = [(c, v) for c, v in zip(intervals, full, strict=True) if c.speed is not None]
     if not pairs:
         return "There is no critical speed that another geometry could move."
-    words, outside = [], []
+    words = []
     for critical, moved in pairs:
-        digits = _digits(critical)
+        digits = speed_digits(critical.low, critical.high)
         name = f"{number(critical.speed, digits)}{SPACE}m/s"
         if moved is None:
             words.append(f"{name} has no counterpart nearby")
-            outside.append(name)
-            continue
-        change = moved / critical.speed - 1
-        sign = "+" if change > 0 else ""
-        becomes = f"becomes {number(moved, digits)}{SPACE}m/s ({sign}{percent(change)})"
-        same = number(moved, digits) == number(critical.speed, digits)
-        words.append(f"{name} {'stays' if same else becomes}")
-        if not critical.low <= moved <= critical.high:
-            outside.append(name)
-    told = f"In the full geometry {join(words)}."
-    if not any(c.high > c.low for c, _ in pairs):
-        return f"{told} The readings leave nothing open here, so this is all the error there is."
-    if not outside:
-        inside = "It stays inside its interval" if len(pairs) == 1 else "Each stays in its interval"
-        return f"{told} {inside}: here the small angle costs less than the readings leave open."
-    rest = ""
-    if len(outside) < len(pairs):
-        rest = " The rest stay inside." if len(pairs) - len(outside) > 1 else " The other stays in."
+        elif not critical.low <= moved <= critical.high:
+            change = percent(abs(moved / critical.speed - 1))
+            way = "up" if moved > critical.speed else "down"
+            words.append(f"{name} moves {way} by {change}, **out of** its interval")
+    if words:
+        return (
+            f"In the full geometry {join(words)}: there the small angle costs more than the "
+            "readings leave open."
+        )
     return (
-        f"{told} **Outside** the 95{SPACE}% interval: {join(outside)}. There the small angle costs "
-        f"more than the readings leave open.{rest}"
+        "In the full geometry every critical speed stays inside its interval: here the small angle "
+        "costs less than the readings leave open."
     )
 
 
 def other_readings(by_stiffness):
-    """What becomes of each critical speed of the asked stiffness by the other readings of the data.
+    """Whether the other readings of the data move a critical speed out of the asked one's interval.
 
     Parameters
     ----------
     by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
         From `suspension.uncertainty.critical_speeds_by_stiffness`, the asked stiffness first.
     """
-    found = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
-    asked, *others = found
-    names = join([f"the {stiffness.name}" for stiffness, _ in by_stiffness[1:]], "or")
-    if len({len(speeds) for speeds in found}) > 1:
+    asked, *others = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
+    if any(len(speeds) != len(asked) for speeds in others):
         return "The readings do not even agree on how many critical speeds there are."
     if not asked:
         return "By none of the readings is there a critical speed in the range."
-    words, outside = [], []
-    for own, *moved in zip(asked, *others, strict=True):
-        digits = speed_digits(own.low, own.high)
-        name = number(own.speed, digits)
-        new = list(dict.fromkeys(number(c.speed, digits) for c in moved))
-        becomes = "stays as it is" if new == [name] else f"becomes {join(new, 'or')}{SPACE}m/s"
-        words.append(f"{name}{SPACE}m/s {becomes}")
-        if not all(own.low <= c.speed <= own.high for c in moved):
-            outside.append(name)
-    each = "each of them" if len(asked) > 1 else "which is"
-    where = f"{each} inside the interval that belongs to the asked stiffness"
+    outside = [
+        number(own.speed, speed_digits(own.low, own.high))
+        for own, *moved in zip(asked, *others, strict=True)
+        if not all(own.low <= c.speed <= own.high for c in moved)
+    ]
     if outside:
-        where = (
-            f"and what becomes of {join(outside)}{SPACE}m/s lies **outside** the asked "
-            "stiffness's interval"
+        return (
+            f"Another reading moves {join(outside)}{SPACE}m/s **out of** the interval that belongs "
+            "to the asked stiffness."
         )
-    return f"By {names}, {join(words)}, {where}."
+    return (
+        "Whichever reading one takes, each critical speed stays inside the interval that belongs "
+        "to the asked stiffness."
+    )
 
 
 def confidence_table(asked):
@@ -405,17 +335,15 @@ def confidence_table(asked):
 def confidence_note(asked, stiffness):
     """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
-        "The margins, and where the verdict flips, are those of the asked stiffness, the "
-        f"parabola's slope at zero, {quantity(stiffness, 'N/m', 4)}. The confidence that "
-        f"contact is lost is given for each reading of the data by itself: the "
-        f"{join(asked[0].lost)}."
+        "The margins, and where the verdict flips, are those of the asked stiffness, "
+        f"{quantity(stiffness, 'N/m', 4)}; the confidence that contact is lost is given for each "
+        "reading of the data."
     )
     beyond = [speed.v for speed in asked if speed.stretch > 1]
     if beyond:
         words += (
             f" An asterisk, at {speed_list(beyond)}: **if the spring stays linear** beyond "
-            r"$\delta_{\max}$; the regression knows nothing about it there, and no confidence "
-            "level includes that doubt."
+            r"$\delta_{\max}$; no confidence level includes that doubt."
         )
     return words
 
@@ -435,82 +363,49 @@ def map_caption(stiffness, k, asked, hatched):
         Whether there is a hatched region.
     """
     low, high = stiffness.interval()
-    text = (
+    beyond = r" Hatched: a spring is compressed beyond $\delta_{\max}$." if hatched else ""
+    return Caption(
         "The margin over speed and stiffness. On the black line the verdict turns. Dashed, with "
-        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; "
-        f"{_circles(asked).lower()}: the {count(len(asked), 'asked speed')}."
+        f"band: the fitted stiffness (the {stiffness.name}) and its 95 % interval; marked there: "
+        f"the {count(len(asked), 'asked speed')}.{beyond}",
+        f"Map of the margin over speed and stiffness, from {number(k[0])} to {number(k[-1])}{SPACE}"
+        "N/m: red where contact is lost, blue where it is kept, a black line between. A band marks "
+        f"{number(low)} to {number(high)}{SPACE}N/m around the fitted stiffness."
+        + (" A hatched region marks springs compressed further than measured." if hatched else ""),
     )
-    alt = (
-        f"Map of the margin over speed and stiffness, from {number(k[0])} to "
-        f"{number(k[-1])}{SPACE}N/m: "
-        "red where contact is lost, blue where it is kept, a black line between. A horizontal "
-        f"band marks {number(low)} to {number(high)}{SPACE}N/m around the fitted "
-        f"{number(stiffness.value)}{SPACE}N/m."
-    )
-    if hatched:
-        text += r" Hatched: a spring is compressed beyond $\delta_{\max}$."
-        alt += " A hatched region marks springs compressed further than measured."
-    return Caption(text, alt)
 
 
 def sensitivity_caption(critical):
     """Caption of the sensitivities of the critical speeds."""
+    text = "By how many per cent each critical speed moves when a parameter grows by one per cent."
     if not len(critical):
-        text = "There is no critical speed in the range: nothing to move, the axes stay empty."
-        return Caption(text, "Empty axes, because there is no critical speed in the range.")
+        return Caption(
+            "There is no critical speed in the range: the axes stay empty.", "Empty axes."
+        )
     return Caption(
-        "By how many per cent each critical speed moves when a parameter grows by one per cent.",
+        text,
         "Bar chart: per cent change of each critical speed for one per cent more stiffness, "
         f"damping, mass, moment of inertia and wheel distance, at {speed_list(critical)}.",
     )
 
 
-def strongest(critical, percent):
-    """To which parameter each critical speed answers most.
-
-    Parameters
-    ----------
-    critical : sequence of float
-        Critical speeds, m/s.
-    percent : dict of str to sequence of float
-        For each parameter, the per cent by which each moves for one per cent of it.
-    """
-    if not len(critical):
-        return "Without a critical speed there is nothing that could answer."
-    most = [max(percent, key=lambda name: abs(percent[name][i])) for i in range(len(critical))]
-    names = distinct(critical)
-    which = "The critical speed answers" if len(critical) == 1 else "The critical speeds answer"
-    words = join(
-        f"{name} at {v}{SPACE}m/s ({fixed(percent[name][i], 2)}{SPACE}% per 1{SPACE}%)"
-        for i, (v, name) in enumerate(zip(names, most))
-    )
-    return f"{which} most strongly to {words}."
-
-
 def travel_caption(regimes, beyond, delta_max):
     """Caption of the largest compression and pitch over the speeds looked at."""
-    text = (
-        "Largest compression of a spring (left) and largest pitch (right) while both wheels press "
-        "on the ground. Dashed: the largest displacement at which the spring was measured."
-    )
     where = beyond_words(regimes, beyond)
-    above = f"It lies above the line {where}." if where else "It stays below the line."
-    alt = (
+    return Caption(
+        "Largest compression of a spring (left) and largest pitch (right) while both wheels press "
+        "on the ground. Dashed: the largest displacement at which the spring was measured.",
         "Left: largest spring compression against speed with a dashed line at "
-        f"{fixed(1000 * delta_max, 1)}{SPACE}mm, the largest measured displacement. {above} Right: "
-        "largest pitch angle against speed."
+        f"{fixed(1000 * delta_max, 1)}{SPACE}mm, the largest measured displacement. It lies "
+        f"{f'above the line {where}' if where else 'below the line'}. Right: largest pitch.",
     )
-    return Caption(text, alt)
 
 
-def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
+def doubt(regimes, beyond, delta_max, tilt):
     """Where the verdicts rest on a spring that was never measured, and how far the body tilts.
 
     Parameters
     ----------
-    asked : sequence of Asked
-    at_rest : float
-        Compression of the springs at rest over `delta_max`.
     delta_max : float
         Largest displacement at which the spring was measured, m.
     tilt : float
@@ -518,30 +413,19 @@ def doubt(regimes, beyond, asked, at_rest, delta_max, tilt):
     """
     limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
     where = beyond_words(regimes, beyond)
-    words = []
-    if at_rest > 1:
-        words.append(
-            f"**Even at rest** the robot compresses its springs to {fixed(at_rest, 2)} times "
-            f"{limit}: it is too heavy for this spring as far as it was measured, and every "
-            "number about the drive is an extrapolation."
-        )
-    elif where:
-        words.append(
+    spring = f"No spring is compressed beyond {limit}, as far as it was measured."
+    if where:
+        spring = (
             f"While both wheels still press, a spring is compressed beyond {limit} {where}. "
             "There the verdicts are those of a spring that stays linear further than anyone has "
             "measured."
         )
-    else:
-        words.append(f"No spring is compressed beyond {limit}, as far as it was measured.")
-    each = join(f"{fixed(speed.stretch, 2)} at {speed.v:g}{SPACE}m/s" for speed in asked)
-    largest = "largest compression is" if len(asked) == 1 else "largest compressions are"
-    words.append(rf"In units of $\delta_{{\max}}$ the {largest} {each}.")
-    words.append(
-        f"As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} degrees, "
-        f"where {small_angle(tilt)}; "
-        "[in the air](../notebooks/07-flight.ipynb) it is another matter."
+    sine, cosine = percent(1 - np.sinc(tilt / np.pi)), percent(1 - np.cos(tilt))
+    return (
+        f"{spring} As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} "
+        rf"degrees, where $\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by "
+        f"{cosine}; [in the air](../notebooks/07-flight.ipynb) it is another matter."
     )
-    return " ".join(words)
 
 
 def _up(x):
@@ -551,21 +435,13 @@ def _up(x):
 
 def lesson(regimes, balances):
     """What the ranges teach, in one line; `balances` as in `balance_table`."""
-    if regimes.lost.tolist() == [False, True]:
-        return (
-            "With this spring the wheels do fly above some speed. That they do was not to be "
-            "known beforehand: resonance throws the body, a short bump spares it, a fast damper "
-            "pulls at it, and only the numbers tell what comes of the three."
-        )
     if not len(regimes.critical):
         return "With this spring one verdict holds at all speeds. Only the numbers could tell."
+    flies = "do fly" if regimes.lost.tolist() == [False, True] else "do not simply fly"
     words = (
-        "The wheels do not simply fly above some speed. Resonance throws the body, a short bump "
-        "spares it"
+        f"With this spring the wheels {flies} above some speed. Resonance throws the body, a short "
+        "bump spares it"
     )
     if any(balance.pulled for balance in balances):
-        return (
-            f"{words}, and the damper, meant to hold the robot down, is what pulls a wheel off the "
-            "ground at the highest speeds."
-        )
-    return f"{words}."
+        words += ", and the damper, meant to hold the robot down, pulls a wheel off the ground"
+    return f"{words}: only the numbers tell what comes of it."

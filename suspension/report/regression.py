@@ -25,7 +25,6 @@ __all__ = [
     "ellipse_figure",
     "experiments_figure",
     "fit_figure",
-    "fit_plot",
     "intervals",
     "joint_intervals",
     "linearity",
@@ -77,11 +76,6 @@ def fit_figure(fit):
         f"and the fitted curve, {shape}, with the confidence band of the mean force."
     )
     return Caption(caption, alt)
-
-
-def fit_plot():
-    """Answer 1(i)."""
-    return "Data and best fit are in one plot: [the fit](../notebooks/01-regression.ipynb#fig-fit)."
 
 
 def stiffness(fit):
@@ -188,16 +182,11 @@ def _statistic(test):
 def residuals_figure(fit):
     """Caption of the residuals."""
     largest = quantity(np.abs(fit.residuals).max(), "N", 2)
-    caption = (
-        "Residuals against displacement, and ordered against what normal errors would give. The "
-        f"largest is {largest}."
+    return Caption(
+        "Residuals against displacement, and ordered against what normal errors would give.",
+        f"Left: residuals against displacement, with a zero line; the largest is {largest}. Right: "
+        "ordered residuals against normal quantiles with a straight reference line.",
     )
-    alt = (
-        "Left: residuals against displacement, with a zero line; the largest is "
-        f"{largest}. Right: ordered residuals against normal quantiles with a straight "
-        "reference line."
-    )
-    return Caption(caption, alt)
 
 
 def residuals(fit):
@@ -275,30 +264,17 @@ def coverage(shares, experiments, level=0.95):
         How many there were.
     """
     spread = math.sqrt(level * (1 - level) / experiments)  # of a share that is `level` in truth
-    shares = {name.replace(" = ", f"{SPACE}={SPACE}"): share for name, share in shares.items()}
+    promise = f"promise of {percent(level)}"
     rows = [
-        {"intervals": name, "both right in": percent(share, 3)} for name, share in shares.items()
+        {
+            "intervals": name.replace(" = ", f"{SPACE}={SPACE}"),
+            "both right in": percent(share, 3),
+            promise: "kept" if share >= level - 3 * spread else "broken",
+        }
+        for name, share in shares.items()
     ]
-    kept = [name for name, share in shares.items() if share >= level - 3 * spread]
-    broken = [name for name in shares if name not in kept]
-    counted = f"Of {experiments:,} experiments (standard error of the count: {percent(spread, 1)})"
-    promise = f"kept the promise of {percent(level)}"
-    if not broken:
-        verdict = f"every kind of box {promise}."
-    elif not kept:
-        verdict = f"no kind of box {promise}."
-    else:
-        verdict = (
-            f"{_boxes(kept)} {promise} for both coefficients at once; {_boxes(broken)} did not."
-        )
-    more = "A box does better than the ellipse it is made of: it is larger, its corners come free."
-    return f"{table(rows)}\n\n{counted}, {verdict} {more}"
-
-
-def _boxes(names):
-    """``the joint and the one-at-a-time boxes``."""
-    kinds = [name.replace("one at a time", "one-at-a-time") for name in names]
-    return f"the {join(kinds)} boxes"
+    counted = f"Of {experiments:,} experiments; standard error of the count: {percent(spread, 1)}."
+    return f"{table(rows)}\n\n{counted}"
 
 
 def summary(fit):

@@ -1,24 +1,38 @@
 """Rows of the report's tables, a dict each, and a Markdown table made from them."""
 
 import math
-from dataclasses import astuple
 
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.report.words import fixed, number, seconds
+from suspension.report.words import SPACE, fixed, number, seconds
 
 __all__ = [
+    "SYMBOLS",
     "error_rows",
+    "facts",
     "matrix_rows",
     "mode_name",
     "mode_rows",
-    "parameter_rows",
     "stability_rows",
     "table",
     "verdict",
 ]
 
+SYMBOLS = {
+    "g": ("$g$", "m/s²", "gravity"),
+    "m": ("$m$", "kg", "mass of the half-robot"),
+    "Izz": ("$I_{zz}$", "kg m²", "its moment of inertia about the centre of mass"),
+    "L1": ("$L_1$", "m", "centre of mass to rear wheel"),
+    "L2": ("$L_2$", "m", "centre of mass to front wheel"),
+    "c1": ("$c_1$", "N s/m", "rear pair of dampers"),
+    "c2": ("$c_2$", "N s/m", "front pair of dampers"),
+    "k1": ("$k_1$", "N/m", "rear pair of springs"),
+    "k2": ("$k_2$", "N/m", "front pair of springs"),
+    "height": ("$h_0$", "m", "height of the bump"),
+    "sigma": (r"$\sigma$", "m", "its width"),
+    "centre": ("$x_0$", "m", "place of its top"),
+}
 NUMERIC_START = set("0123456789-−+–<>")  # how a number begins; a dash stands for none
 
 
@@ -78,20 +92,12 @@ def _least(run, wheel):
     return f"{fixed(N.min(), 2)} ({when})"
 
 
-def parameter_rows(robot, bump):
-    """The parameters of a robot (Table 1, and its springs) and of a bump, with units."""
-    quantities = [
-        ("gravity", "$g$", (robot.g,), "m/s²"),
-        ("mass", "$m$", (robot.m,), "kg"),
-        ("moment of inertia", "$I_{zz}$", (robot.Izz,), "kg m²"),
-        ("distances to the wheels", "$L_1$, $L_2$", (robot.L1, robot.L2), "m"),
-        ("damping", "$c_1$, $c_2$", robot.c, "N s/m"),
-        ("stiffness", "$k_1$, $k_2$", robot.k, "N/m"),
-        ("bump: height, width, place", r"$h_0$, $\sigma$, $x_0$", astuple(bump), "m"),
-    ]
+def facts(values):
+    """What a robot or a bump is made of, a row for each parameter; `values` by name, SI units."""
     return [
-        {"parameter": name, "symbol": symbol, "value": ", ".join(map(_given, x)), "unit": unit}
-        for name, symbol, x, unit in quantities
+        {"symbol": symbol, "value": f"{_given(values[name])}{SPACE}{unit}", "meaning": meaning}
+        for name, (symbol, unit, meaning) in SYMBOLS.items()
+        if name in values
     ]
 
 

@@ -82,14 +82,12 @@ def _residue(robot, road, wdot):
     )
 
 
-def growth_caption(runs, modes, robot, shown):
+def growth_caption(runs, robot, shown):
     """Caption of how the modes of two runs grow or die away.
 
     Parameters
     ----------
     runs : pair of Trajectory
-    modes : pair of array_like, shape (4, J+1)
-        Amplitudes of the modes in each.
     robot : Robot
     shown : sequence of int
         Which modes are drawn.
@@ -100,24 +98,16 @@ def growth_caption(runs, modes, robot, shown):
     seen = f"At {left} (left) {fates[0]}; at {right} (right) {fates[1]}."
     if fates[0] == fates[1]:
         seen = f"Both at {left} (left) and at {right} (right) {fates[0]}."
-    if any(_covered(run, mode, robot, shown) for run, mode in zip(runs, modes)):
-        seen += " Where symbols leave their line the rounding of a larger mode covers the smaller."
     text = (
         f"Amplitude of the modes ({names}) step by step by {runs[0].scheme.name}, computed "
-        rf"(symbols) and predicted from $\lvert R(\lambda_k\Delta t)\rvert$ (lines). {seen}"
+        rf"(symbols) and predicted from $\lvert R(\lambda_k\Delta t)\rvert$ (lines). {seen} "
+        "Symbols leave their line only where the rounding of a larger mode covers the smaller."
     )
     alt = (
         f"Two panels, amplitude of the modes ({names}) on a logarithmic axis against the step "
         f"number; the computed symbols lie on the straight predicted lines. {seen}"
     )
     return Caption(text, alt)
-
-
-def _covered(run, mode, robot, shown):
-    """Whether an amplitude leaves its line, by a tenth, as rounding makes it."""
-    growth = np.abs(run.scheme.stability_function(robot.eigenvalues[shown] * run.dt))
-    line = mode[shown, :1] * growth[:, None] ** np.arange(mode.shape[1])
-    return bool((np.abs(mode[shown] - line) > 0.1 * line).any())
 
 
 def _fate(run, robot, shown):

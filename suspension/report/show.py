@@ -11,21 +11,11 @@ import matplotlib.pyplot as plt
 from IPython.display import Markdown, display
 
 from suspension.figures.layout import narrow, svg
+from suspension.report.rows import SYMBOLS
 
 __all__ = ["answer", "listing", "say", "show_figure"]
 
-UNITS = {
-    "g": "m/s²",
-    "m": "kg",
-    "Izz": "kg m²",
-    "L1": "m",
-    "L2": "m",
-    "c1": "N s/m",
-    "c2": "N s/m",
-    "k1": "N/m",
-    "k2": "N/m",
-    "height": "m",
-    "sigma": "m",
+UNITS = {name: unit for name, (_, unit, _) in SYMBOLS.items()} | {
     "x0": "m",
     "distance": "m",
     "w0": "[m, m/s, rad, rad/s]",

@@ -12,7 +12,6 @@ __all__ = [
     "coarse_mode",
     "convergence_caption",
     "dip_caption",
-    "half_turn",
     "heave_caption",
     "missed_table",
     "observed_orders",
@@ -21,7 +20,6 @@ __all__ = [
     "sampled_caption",
     "sampled_verdicts",
     "seen_mode_caption",
-    "witness",
     "work_account",
     "work_caption",
     "work_verdict",
@@ -44,22 +42,18 @@ READINGS = ("state (relative)", "normal force (N)", "time of loss (s)")
 def heave_caption(heave, bump):
     """Caption of the exact heave; `heave` is a dict of speed, m/s, to rise above rest, m."""
     rises = join(f"{fixed(1000 * max(y), 1)}{SPACE}mm at {v:g}{SPACE}m/s" for v, y in heave.items())
-    text = (
-        "The exact height of the centre of mass above its rest, against position. It rises by at "
-        f"most {rises}; the bump is {fixed(1000 * bump.height, 1)}{SPACE}mm high. A body that "
-        "follows "
-        "the ground climbs it twice, half the height each time; one that is thrown swings on; one "
-        "that is too fast has hardly begun to move when the bump is behind it."
-    )
-    alt = (
+    return Caption(
+        "The exact height of the centre of mass above its rest, against position. A body that "
+        f"follows the ground climbs the bump, {fixed(1000 * bump.height, 1)}{SPACE}mm high, twice, "
+        "half of it each time; one that is thrown swings on; one that is too fast has hardly begun "
+        "to move when the bump is behind it.",
         "Height of the centre of mass relative to rest against position, one curve for each of "
-        f"{count(len(heave), 'speed')}. The largest rises are {rises}."
+        f"{count(len(heave), 'speed')}. It rises by at most {rises}.",
     )
-    return Caption(text, alt)
 
 
 def sampled_caption(speeds, sampled):
-    """Caption of margins that were read from samples; arguments as in `sampled_verdicts`."""
+    """Caption of margins read from samples; speeds in m/s, `sampled` as in `sampled_verdicts`."""
     steps = join(f"{number(1000 * dt, 2)}{SPACE}ms" for dt in sampled)
     looked = f"from {number(speeds[0])} to {number(speeds[-1])}{SPACE}m/s"
     return Caption(
@@ -70,55 +64,26 @@ def sampled_caption(speeds, sampled):
     )
 
 
-def sampled_verdicts(speeds, sampled, exact):
-    """How many verdicts are wrong when the margin is read from samples.
+def sampled_verdicts(sampled, exact):
+    """How many verdicts are wrong when the margin is read from samples, a table.
 
     Parameters
     ----------
-    speeds : array_like, shape (n,)
-        m/s, in order.
     sampled : dict of float to array_like, shape (n,)
-        For each time between two samples, s, the least of them, N.
+        For each time between two samples, s, the least of them at n speeds, N.
     exact : array_like, shape (n,)
         The least force at any time, N.
     """
     lost = is_lost(exact)
-    wrong = {dt: int((is_lost(least) != lost).sum()) for dt, least in sampled.items()}
-    looked = (
-        f"{count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])}{SPACE}m/s"
-    )
-    if not any(wrong.values()):
-        return (
-            f"At {looked} no verdict is wrong. That is luck, not method: with this spring no dip "
-            "at these speeds is shorter than the time between two samples."
-        )
-    each = join(
-        f"{n} with a sample every {number(1000 * dt, 2)}{SPACE}ms" for dt, n in wrong.items()
-    )
-    return (
-        f"Of the verdicts at {looked} so many are wrong: {each}. The samples say "
-        "kept where a wheel leaves the ground."
-    )
-
-
-def witness(differences, tolerance):
-    """Whether an independent integrator agrees with the closed form.
-
-    Parameters
-    ----------
-    differences : sequence of float
-        Largest difference for each speed, SI units.
-    tolerance : float
-        That of the integrator.
-    """
-    worst = max(differences)
-    bound = 10.0 ** np.ceil(np.log10(max(worst, 1e-10)))
-    agree = "They agree" if worst < 1e-9 else "**They do not agree**"
-    than = "less" if worst <= bound else "more"
-    return (
-        f"{agree}: at {count(len(differences), 'speed')} the states differ by {than} than "
-        f"{power(bound)} in SI units, with the integrator's tolerance at "
-        f"{power(tolerance)}."
+    return table(
+        [
+            {
+                "a sample every (ms)": number(1000 * dt, 2),
+                "verdicts": str(len(lost)),
+                "wrong": str((is_lost(least) != lost).sum()),
+            }
+            for dt, least in sampled.items()
+        ]
     )
 
 
@@ -133,23 +98,15 @@ def convergence_caption(worst, v):
         Speed, m/s.
     """
     shown = _shown(worst)
-    names = {
-        0: "the state (each component relative to its largest value)",
-        1: "the normal forces",
-        2: "the time at which contact is lost",
-    }
-    panels = join(names[j] for j in shown)
+    readings = join(READINGS[j] for j in shown)
     kept = "" if 2 in shown else " Contact is kept at this speed: there is no time of a loss."
-    text = (
-        f"Largest error over the run at $v$ = {v:g}{SPACE}m/s against the time step, for "
-        f"{panels}.{kept}"
-    )
     falls = join(f"with slope about {number(_order(e[:, 0]), 2)} for {s}" for s, e in worst.items())
-    alt = (
+    return Caption(
+        f"Largest error over the run at $v$ = {v:g}{SPACE}m/s against the time step: {readings}, "
+        f"the state relative to the largest value of each component.{kept}",
         f"{count(len(shown), 'panel').capitalize()} of error against time step on logarithmic "
-        f"axes, for {panels}. Over the longest steps the error of the state falls {falls}."
+        f"axes: {readings}. Over the longest steps the error of the state falls {falls}.",
     )
-    return Caption(text, alt)
 
 
 def panels(worst):
@@ -175,7 +132,7 @@ def _order(errors):
 
 
 def observed_orders(worst, promised):
-    """Table of observed orders and what they mean.
+    """Observed orders beside the promised ones, a table.
 
     Parameters
     ----------
@@ -184,39 +141,23 @@ def observed_orders(worst, promised):
     promised : dict of str to int
         The order of each scheme.
     """
-    shown = _shown(worst)
-    orders = {name: [_order(errors[:, j]) for j in shown] for name, errors in worst.items()}
+    orders = {name: [_order(errors[:, j]) for j in _shown(worst)] for name, errors in worst.items()}
     rows = [
         {
             "scheme": name,
             "promised": str(promised[name]),
-            **{READINGS[j]: fixed(p, 2) for j, p in zip(shown, ps)},
+            **{READINGS[j]: fixed(p, 2) for j, p in zip(_shown(worst), ps)},
         }
         for name, ps in orders.items()
     ]
-    off = {name: max(abs(p - promised[name]) for p in ps) for name, ps in orders.items()}
-    late = [name for name in off if off[name] > 0.25]
-    if late:
-        meaning = (
-            f"The orders observed for {join(late)} are not yet the promised ones: the longest "
-            "steps are too long against the swings of this robot for the first term of the error "
-            "to rule."
-        )
-    else:
-        meaning = (
-            "The order of a method is not a promise about the state only: everything read from it "
-            "inherits it, as long as the reading itself (here: a spline through the samples) is "
-            "as good."
-        )
-    return "\n\n".join(
-        [
-            "Observed orders, fitted over the five longest steps:",
-            table(rows),
-            meaning + " Halving a step divides the error by two to the power of the order, until "
-            "it meets the rounding of the method's own additions, below which shorter steps only "
-            "add more of them.",
-        ]
+    late = [
+        name for name, ps in orders.items() if np.abs(np.array(ps) - promised[name]).max() > 0.25
+    ]
+    note = (
+        f"The orders observed for {join(late)} are not yet the promised ones: the longest steps "
+        "are too long against the swings of this robot for the first term of the error to rule."
     )
+    return table(rows) + (f"\n\n{note}" if late else "")
 
 
 def seen_mode_caption(seen, dts, true):
@@ -234,37 +175,17 @@ def seen_mode_caption(seen, dts, true):
         "line: the highest that samples so far apart can show, Nyquist's) and damping ratio "
         f"(right; thin line: the true one). Below zero the run grows. {crossing}"
     )
-    ends = join(f"{number(z.imag[-1] / true.imag, 2)} with {name}" for name, z in seen.items())
     growing = [name for name, z in seen.items() if z.real[-1] > 0]
     grows = f"the mode grows with {join(growing)}" if growing else "no mode grows"
     alt = (
         "Two panels against the time step: relative frequency and damping ratio of the computed "
-        f"mode. At the longest step the relative frequency is {ends}, and {grows}."
+        f"mode. At the longest step {grows}."
     )
     return Caption(text, alt)
 
 
-def half_turn(seen, dts, true):
-    """Where RK4 turns a mode over in every step, with its damping and without.
-
-    Parameters
-    ----------
-    seen, dts, true
-        As in `figures.plot_seen_mode`, of RK4 alone.
-    """
-    dt = accuracy.half_turn(seen, dts)
-    if dt is None:
-        return "In [the figure](#fig-damping) RK4 does not reach that line."
-    undamped = np.sqrt(6) / true.imag
-    return (
-        f"For the fastest mode $\\sqrt6/\\omega$ is {number(1000 * undamped)}{SPACE}ms; in [the "
-        f"figure](#fig-damping), where it is damped, RK4 crosses the line at "
-        f"{number(1000 * dt)}{SPACE}ms."
-    )
-
-
 def coarse_mode(scheme, lam, dt):
-    """What a run with a stable but long step shows in the place of a mode.
+    """What a run with a long step shows in the place of a mode, a table.
 
     Parameters
     ----------
@@ -275,53 +196,34 @@ def coarse_mode(scheme, lam, dt):
         Time step, s.
     """
     seen = accuracy.seen_mode(scheme, lam, dt * np.geomspace(1e-3, 1, 200))[-1]
-    stable = scheme.is_stable(np.array([lam]), dt)
-    how = "absolutely stable as it is" if stable else "where it is not even stable"
-    here = f"At $\\Delta t$ = {dt:g}{SPACE}s, {how}, {scheme.name}"
-    if lam.imag <= 0:
-        shown = f"{here} gives a mode that does not swing"
-    else:
-        shown = (
-            f"{here} shows a mode of {number(seen.imag / 2 / np.pi)}{SPACE}Hz where the robot has "
-            f"{number(lam.imag / 2 / np.pi)}{SPACE}Hz"
-        )
-    if abs(lam.real) < 1e-9 * abs(lam):
-        decay = ", and like the robot's it does not decay"
-        if abs(seen.real) > 1e-9 * abs(lam):
-            decay = ", and changes its size, which the robot's does not"
-    elif seen.real >= 0:
-        decay = ", and does not let it decay at all"
-    elif seen.real > lam.real:
-        decay = f", and lets it decay {number(lam.real / seen.real)} times too slowly"
-    else:
-        decay = f", and lets it decay {number(seen.real / lam.real)} times too fast"
-    tame = " It returns a tame answer to another question." if stable else ""
-    return f"{shown}{decay}.{tame}"
-
-
-def work_account(schemes):
-    """What a step of each scheme costs, a table and the rule of counting."""
-    rows = [
-        {
-            "scheme": scheme.name,
-            "evaluations a step": str(
-                accuracy.evaluations(scheme, 2) - accuracy.evaluations(scheme, 1)
-            ),
-            "a linear system to solve": "no" if _explicit(scheme) else "yes",
-        }
-        for scheme in schemes
-    ]
-    return "\n\n".join(
+    stable = "stable" if scheme.is_stable(np.array([lam]), dt) else "**unstable**"
+    shown = {"the robot": lam, f"{scheme.name} at {dt:g}{SPACE}s, {stable}": seen}
+    return table(
         [
-            "A stage that begins where the last step ended has been evaluated already and is not "
-            "counted again. So a step of Crank-Nicolson costs one new evaluation, not two:",
-            table(rows),
+            {
+                "its fastest mode": name,
+                "frequency (Hz)": number(z.imag / 2 / np.pi),
+                "decay (1/s)": fixed(-z.real, 3),
+            }
+            for name, z in shown.items()
         ]
     )
 
 
-def _explicit(scheme):
-    return not np.triu(scheme.a).any()
+def work_account(schemes):
+    """What a step of each scheme costs, a table."""
+    return table(
+        [
+            {
+                "scheme": scheme.name,
+                "evaluations a step": str(
+                    accuracy.evaluations(scheme, 2) - accuracy.evaluations(scheme, 1)
+                ),
+                "a linear system to solve": "yes" if np.triu(scheme.a).any() else "no",
+            }
+            for scheme in schemes
+        ]
+    )
 
 
 def work_caption(cost, force, v, tolerances):
@@ -341,17 +243,12 @@ def work_caption(cost, force, v, tolerances):
         "right-hand side: methods with a fixed step, and adaptive ones from SciPy at tolerances "
         f"from {power(tolerances[0])} to {power(tolerances[-1])}."
     )
-    ordered, never = _needed(cost, force, list(cost))
-    alt = "Error of the normal force against evaluations of the right-hand side, both logarithmic."
-    if len(ordered) > 1:
-        alt += (
-            f" The fewest evaluations to an error of {GOAL:g}{SPACE}N are those of "
-            f"{ordered[0][1]}, the "
-            f"most those of {ordered[-1][1]}."
-        )
-    if never:
-        alt += f" It is not reached by {join(never)}."
-    return Caption(text, alt)
+    never = join(_needed(cost, force, list(cost))[1], "or")
+    return Caption(
+        text,
+        "Error of the normal force against evaluations of the right-hand side, both logarithmic, a "
+        f"falling line for each method. Not down to {GOAL:g}{SPACE}N: {never}.",
+    )
 
 
 def _needed(cost, force, names):
@@ -367,7 +264,7 @@ def _needed(cost, force, names):
 
 
 def work_verdict(cost, force, names):
-    """Which of the tried runs are good enough, and what the cheapest of them costs.
+    """The fewest evaluations among the runs tried that are good enough, a table.
 
     Parameters
     ----------
@@ -377,21 +274,13 @@ def work_verdict(cost, force, names):
         The methods to compare, with a fixed step.
     """
     ordered, never = _needed(cost, force, names)
-    if not ordered:
-        return f"No run that was tried comes within {GOAL:g}{SPACE}N of the truth."
-    costs = join(f"{n} evaluations with {name}" for n, name in ordered)
-    words = (
-        f"To come within {GOAL:g}{SPACE}N of the truth, the number of steps doubled until it is "
-        "reached, "
-        f"takes {costs}"
-    )
-    if never:
-        most = max(max(cost[name]) for name in never)
-        words += f". With {join(never, 'or')} it is not reached in {most}"
-    return f"{words}."
+    told = {name: str(n) for n, name in ordered}
+    told |= {name: f"> {max(cost[name])}" for name in never}
+    to_goal = f"evaluations to {GOAL:g}{SPACE}N"
+    return table([{"scheme": name, to_goal: n} for name, n in told.items()])
 
 
-def missed_table(speeds, missed, shown=None, force=None):
+def missed_table(speeds, missed):
     """At how many speeds the watchers overlook a loss of contact.
 
     Parameters
@@ -400,49 +289,25 @@ def missed_table(speeds, missed, shown=None, force=None):
         Speeds, m/s, at which contact is lost for a short time.
     missed : dict of str to list of float
         For each way to run the integrator, the speeds at which it saw no loss.
-    shown, force : float, optional
-        The speed in the figure, m/s, and its margin, N.
     """
     if not len(speeds):
         return (
             "With this spring there is no critical speed in the range, so there is no short loss "
             "of contact to be overlooked."
         )
-    parts = [
-        f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to "
-        f"{number(speeds[-1])}{SPACE}m/s, "
-        "beside a critical one, the loss of contact goes unnoticed at",
-        table([{"integrator": name, "unnoticed": str(len(vs))} for name, vs in missed.items()]),
-    ]
-    if not any(missed.values()):
-        parts.append(
-            "With this spring the dips at these speeds last longer than a step, and every one is "
-            "seen. That is luck, not method: nothing in the integrator looks between its steps."
-        )
-    if shown is not None:
-        parts.append(
-            f"The figure shows {speed_list([shown])}, where the force falls to "
-            f"{number(force, 2)}{SPACE}N. [The exact margin]"
-            "(../notebooks/05-how-we-know.ipynb#the-exact-margin) does not depend on where a "
-            "method happens to stop."
-        )
-    return "\n\n".join(parts)
+    rows = table([{"integrator": name, "unnoticed": str(len(vs))} for name, vs in missed.items()])
+    return (
+        f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])}{SPACE}"
+        f"m/s, beside a critical one, the loss of contact goes unnoticed at\n\n{rows}"
+    )
 
 
 def dip_caption(v, was_missed):
     """Caption of the dip, overlooked or not, at `v` in m/s."""
-    if was_missed:
-        text = (
-            "A loss of contact that `solve_ivp` does not see (DOP853, a relative tolerance of "
-            f"$10^{{-8}}$) at {speed_list([v])}: left the run, right the dip. Every step is right; "
-            "the force goes below zero between two of them."
-        )
-        where = "dips below zero between two neighbouring steps of the integrator, both above zero"
-    else:
-        text = (
-            f"A short loss of contact at {speed_list([v])}, seen by `solve_ivp` (DOP853, a "
-            "relative tolerance of $10^{-8}$) because one of its steps ends in the dip: "
-            "left the run, right the dip."
-        )
-        where = "dips below zero, and a step of the integrator ends within the dip"
-    return Caption(text, f"Normal force against time near its minimum: the exact curve {where}.")
+    how = "does not see" if was_missed else "sees"
+    where = "with no step inside the dip" if was_missed else "with a step that ends in the dip"
+    return Caption(
+        f"A loss of contact at {speed_list([v])} that `solve_ivp` {how} (DOP853, a relative "
+        f"tolerance of $10^{{-8}}$), {where}: left the run, right the dip.",
+        f"Normal force against time near its minimum: the exact curve dips below zero, {where}.",
+    )

@@ -9,7 +9,6 @@ from suspension.report.words import (
     Caption,
     count,
     fixed,
-    join,
     quantity,
     seconds,
     speed_list,
@@ -119,19 +118,16 @@ def verdict_table(runs, compression):
 
 def table_note(runs):
     """What the forces in a verdict table are."""
-    lost, note = _lost(runs), []
-    if any(lost):
-        note.append(
-            "“After” is after the first loss, where the linear model lets the ground pull: such a "
+    note = (
+        "Where contact is kept the smaller of the two is the margin. The further it is from zero, "
+        "the less a numerical error, another spring or a heavier load could turn the verdict."
+    )
+    if any(_lost(runs)):
+        note += (
+            " “After” is after the first loss, where the linear model lets the ground pull: such a "
             "number is no force, and how negative it is says nothing about the real robot."
         )
-    if not all(lost):
-        note.append(
-            "Where contact is kept the smaller of the two is the margin. The further it is from "
-            "zero, the less a numerical error, another spring or a heavier load could turn the "
-            "verdict."
-        )
-    return " ".join(note)
+    return note
 
 
 def spring_sentence(runs, compression, robot, fit):
@@ -149,20 +145,17 @@ def spring_sentence(runs, compression, robot, fit):
             f"All verdicts rest on stiffnesses that were chosen, {stiffnesses(robot)}, not on that "
             f"of Part I, {quantity(fit.stiffness, 'N/m')}"
         )
-    beyond = [(run.v, ratio) for run, ratio in zip(runs, compression) if ratio > 1]
+    beyond = [run.v for run, ratio in zip(runs, compression, strict=True) if ratio > 1]
     reach = "it was measured" if measured else "the spring of Part I was measured"
     if not beyond:
         return (
             f"{rests}. Up to each verdict no spring is compressed further than "
             rf"$\delta_{{\max}}$, as far as {reach}."
         )
-    speeds = speed_list([v for v, _ in beyond])
-    ratios = join(fixed(ratio, 2) for _, ratio in beyond)
-    order = ", in this order" if len(beyond) > 1 else ""
     return (
-        f"{rests}. At {speeds} they hold **if the spring stays linear** beyond "
-        rf"$\delta_{{\max}}$, as far as {reach}: until the verdict is reached a spring is "
-        rf"compressed to {ratios} times $\delta_{{\max}}${order}.{_at_rest(robot, fit.delta_max)}"
+        f"{rests}. At {speed_list(beyond)} they hold **if the spring stays linear** beyond "
+        rf"$\delta_{{\max}}$, as far as {reach}: a spring is compressed further before the verdict "
+        f"is reached.{_at_rest(robot, fit.delta_max)}"
     )
 
 
@@ -193,23 +186,18 @@ def later(runs, longer, distance):
     pairs = list(zip(runs, longer, strict=True))
     extra = quantity(min(more.T[-1] - run.T[-1] for run, more in pairs), "s", 2)
     end = f"$X$ = {distance:g} m"
-    kept = [(run, more) for run, more in pairs if run.loss is None]
-    turned = [run.v for run, more in kept if more.loss]
-    if not kept:
+    if all(_lost(runs)):
         return (
             "Contact is lost on the way at every speed, so nothing that comes after "
             f"{end} can change a verdict."
         )
+    turned = [run.v for run, more in pairs if more.loss and not run.loss]
     if turned:
         return (
             f"**The end of the run decides:** continued for another {extra} beyond {end}, "
             f"contact is lost at {speed_list(turned)} as well."
         )
-    deeper = [run.v for run, more in kept if more.N.min() < run.N.min() - 0.005]
-    margins = ", and no least force becomes smaller"
-    if deeper:
-        margins = f", though the least force becomes smaller at {speed_list(deeper)}"
-    return f"After {end} no verdict changes: the runs were continued for {extra}{margins}."
+    return f"After {end} no verdict changes: the runs were continued for {extra}."
 
 
 def forces_caption(question, runs):

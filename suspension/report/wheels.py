@@ -3,6 +3,7 @@
 import numpy as np
 
 from suspension.forces import WHEEL
+from suspension.report.airborne import air
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -28,8 +29,6 @@ __all__ = [
     "mass_table",
     "surviving_rule",
 ]
-
-NEAR = 0.05  # a rule is reached when the lightest wheel is this near, relative
 
 
 def grams(mass):
@@ -58,27 +57,19 @@ def limit_table(v, rules, runs):
             "wheel pair (g)": number(1e3 * tyre.mass, 2),
             "tyre (N/m)": number(tyre.stiffness, 2),
             "its damping ratio": number(tyre.damping / 2 / np.sqrt(tyre.mass * tyre.stiffness), 2),
-            **_air(run),
+            **air(run),
         }
         for tyre, run in runs
     ]
     rows += [
-        {"wheel pair (g)": "0", "tyre (N/m)": "rigid", "its damping ratio": name, **_air(flight)}
+        {"wheel pair (g)": "0", "tyre (N/m)": "rigid", "its damping ratio": name, **air(flight)}
         for name, flight in rules.items()
     ]
     return table(rows)
 
 
-def _air(run):
-    """Airtimes and heights of a Flight or a Rolling."""
-    return {
-        "in the air: rear, front (ms)": ", ".join(fixed(1e3 * t, 2) for t in run.airtime),
-        "highest: rear, front (mm)": ", ".join(fixed(1e3 * h, 2) for h in run.gaps.max(axis=1)),
-    }
-
-
 def surviving_rule(rules, lightest):
-    """Which rule of a wheel without mass the lightest wheels obey, a sentence.
+    """By how much the airtime of the lightest wheels differs from each rule's, a table.
 
     Parameters
     ----------
@@ -87,26 +78,13 @@ def surviving_rule(rules, lightest):
     lightest : sequence of Rolling
         The lightest wheel of each way to the limit.
     """
-    away = {
-        name: max(np.abs(run.airtime / flight.airtime - 1).max() for run in lightest)
-        for name, flight in rules.items()
-        if (flight.airtime > 0).all()
-    }
-    if len(away) < len(rules):
-        return "With this spring no wheel flies here by one rule at least, and nothing is decided."
-    near = [name for name, part in away.items() if part <= NEAR]
-    far = [name for name in away if name not in near]
-    ways = count(len(lightest), "way")
-    if len(near) == 2:
-        return f"Both rules are the limit here, within {percent(max(away.values()))}: they agree."
-    if not near:
-        parts = join(f"{percent(part)} for the one that {name}" for name, part in away.items())
-        return f"These wheels are not light enough to decide: their airtime is off by {parts}."
-    return (
-        f"**The wheel that {near[0]} survives.** By {ways} to the limit the lightest wheels are "
-        f"in the air as long as it is, within {percent(away[near[0]])}; the one that {far[0]} is "
-        f"off by {percent(away[far[0]])}."
-    )
+    rows = []
+    for name, flight in rules.items():
+        if not (flight.airtime > 0).all():
+            return "With this spring no wheel flies here by one rule at least: nothing is decided."
+        off = max(np.abs(run.airtime / flight.airtime - 1).max() for run in lightest)
+        rows.append({"a wheel without mass": name, "airtime is off by": percent(off)})
+    return table(rows)
 
 
 def free_wheels_caption(v, masses):
@@ -152,7 +130,7 @@ def mass_table(speeds, masses, runs, flights):
                     "contact": f"lost by the {WHEEL[first[0]]} wheel at X = {fixed(first[1], 3)} m"
                     if first
                     else "kept",
-                    **_air(run),
+                    **air(run),
                     "largest force (N)": fixed(run.N.max(), 1),
                 }
             )
@@ -173,8 +151,8 @@ def heaviest_caption(asked):
     return Caption(text, alt)
 
 
-def heaviest_sentence(regimes, v, mass, asked, robot):
-    """For which wheels the verdicts of a wheel without mass are true, and whether faster is safer.
+def heaviest_sentence(regimes, v, mass):
+    """For which wheels faster is safer.
 
     Parameters
     ----------
@@ -182,42 +160,23 @@ def heaviest_sentence(regimes, v, mass, asked, robot):
         Of wheels without mass.
     v, mass : array_like, shape (n,)
         Speeds, m/s, dense and within the regimes, and the heaviest wheel pairs there, kg.
-    asked : dict of float to float
-        The heaviest wheel pairs at the asked speeds.
-    robot : Robot
     """
     v, mass = np.asarray(v), np.asarray(mass)
-    words = []
-    free = [speed for speed, m in asked.items() if np.isinf(m)]
-    if free:
-        words.append(
-            f"At {speed_list(free)} the road nowhere falls away faster than gravity pulls, and a "
-            "wheel may weigh what it likes."
-        )
-    words += [
-        f"At {speed_list([speed])} a wheel pair may weigh {grams(m)}, {percent(m / robot.m)} of "
-        "the body, and no more."
-        for speed, m in asked.items()
-        if 0 < m < np.inf
-    ]
     lost, kept = (regimes.spans(lost=which) for which in (True, False))
     windows = [span for span in kept if len(lost) and span[0] >= lost[0, 1]]
     if not windows:
-        words.append("Contact, once lost, is not found again at a higher speed.")
-        return " ".join(words)
+        return "Contact, once lost, is not found again at a higher speed."
     low, high = windows[-1]
     inside = (low < v) & (v < high)
     most = mass[inside].max() if inside.any() else 0.0
-    where = f"from {number(low)} to {number(high)}{SPACE}m/s"
+    where = f"the window from {number(low)} to {number(high)}{SPACE}m/s"
     if np.isinf(most):
-        words.append(f"In a part of the window {where} a wheel may weigh what it likes.")
-    else:
-        words.append(
-            f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: "
-            f"in the window {where}, where wheels without mass keep contact, a heavier one leaves "
-            "the ground at every speed."
-        )
-    return " ".join(words)
+        return f"In a part of {where} a wheel may weigh what it likes."
+    return (
+        f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: in "
+        f"{where}, where wheels without mass keep contact, a heavier one leaves the ground at "
+        "every speed."
+    )
 
 
 def energy_caption(v):
@@ -251,14 +210,9 @@ def energy_sentence(energy, landings):
     )
     if not landings:
         return f"{words} No wheel lands on the way."
-    taken = sum(landing.heat for landing in landings)
-    hardest = max(landings, key=lambda landing: landing.speed)
     return (
         f"{words} Between its {count(len(landings), 'landing')} and the lift-offs that follow them "
-        f"the dampers turn {percent(taken / heat)} of that heat. The fastest landing, of the "
-        f"{WHEEL[hardest.wheel]} wheel at {fixed(hardest.t, 3)}{SPACE}s, meets the ground at "
-        f"{quantity(hardest.speed, 'm/s', 2)}. A wheel without mass brings no momentum: the force "
-        "jumps, the momentum does not."
+        f"the dampers turn {percent(sum(landing.heat for landing in landings) / heat)} of that."
     )
 
 

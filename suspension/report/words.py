@@ -24,7 +24,6 @@ __all__ = [
     "quantity",
     "ranges",
     "seconds",
-    "small_angle",
     "speed_list",
 ]
 
@@ -108,12 +107,6 @@ def pvalue(p):
     if p < 0.001:
         return f"p{SPACE}<{SPACE}0.001"
     return f"p{SPACE}={SPACE}{number(p, 2)}"
-
-
-def small_angle(theta):
-    """What the small-angle equations take for the same at a pitch `theta`, in rad."""
-    sine, cosine = percent(1 - np.sinc(theta / np.pi)), percent(1 - np.cos(theta))
-    return rf"$\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by {cosine}"
 
 
 def confidence(p):

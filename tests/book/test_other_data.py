@@ -6,11 +6,7 @@ the data that the book ships with. The words for other springs still are tested 
 `tests/unit/test_report_*.py`.
 """
 
-import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +15,7 @@ import numpy as np
 import pytest
 import scipy.io
 from cases import loading_and_unloading, readings
+from displays import run_apart
 from helpers import PAGES, ROOT, windows_locale
 
 from suspension import RK4, GaussianBump, Robot, margin
@@ -166,17 +163,10 @@ def book(request, tmp_path_factory):
     (file,) = folder.iterdir()
     system = windows_locale(tmp_path_factory.mktemp("locale"))
     paths = [path for path in NOTEBOOKS if not PARTS[make] or path.stem in PARTS[make]]
-    done = subprocess.run(
-        [sys.executable, ROOT / "tests" / "displays.py", folder, *paths],
-        env=os.environ | system | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        encoding="utf-8",
-        errors="replace",
-    )
-    assert done.returncode == 0, done.stderr[-3000:]
+    displayed = run_apart(folder, paths, **system)
     pages, results, links = {}, {}, {}
     for path in paths:
-        outputs = json.loads((folder / f"{path.stem}.json").read_text(encoding="utf-8"))
+        outputs = displayed[path.stem]
         whole, computed = [], []
         for cell in nbformat.read(path, as_version=4).cells:
             if cell.cell_type == "markdown":

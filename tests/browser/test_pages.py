@@ -11,7 +11,7 @@ from threading import Thread
 from urllib.parse import urlsplit
 
 import pytest
-from helpers import PAGES, ROOT, QuietHandler
+from helpers import AXE, PAGES, ROOT, QuietHandler, violations
 
 KILOBYTES = 350  # gzipped, of a page without an explorer
 REQUESTS = 20
@@ -19,7 +19,6 @@ SHIFT = 0.02  # cumulative layout shift
 PAINT = 2500  # ms to the largest paint, at a sixth of the speed
 SLOW_LINE = {"offline": False, "latency": 150, "downloadThroughput": 1e6, "uploadThroughput": 1e6}
 MARK = '<div class="suspension-explorer-box'  # stands in every page with an explorer
-AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 POLICY = (ROOT / "README.md").read_text(encoding="utf-8").split("```text\ndefault-src")[1]
 POLICY = " ".join(("default-src" + POLICY.split("```")[0]).split())
 WATCH = """
@@ -192,18 +191,6 @@ def test_axe_finds_no_violation(visit):
     found_dark, passed = violations(tab, "color-contrast")
     assert passed == 1
     assert not found + found_dark, "\n".join(found + found_dark)
-
-
-def violations(tab, *rules):
-    """What axe objects to, by some of its rules or by all; and how many rules found nothing."""
-    options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
-    result = tab.evaluate("options => axe.run(document, options)", options)
-    found = [
-        f"{violation['id']}: {violation['help']}: {node['target']} {node['failureSummary']}"
-        for violation in result["violations"]
-        for node in violation["nodes"]
-    ]
-    return found, len(result["passes"])
 
 
 @pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])

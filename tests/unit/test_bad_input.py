@@ -40,6 +40,7 @@ from suspension.branches import branches
 from suspension.energy import energy, landings
 from suspension.explorer import explore
 from suspension.least_force import distance_over
+from suspension.rides import rides
 from suspension.road import RoadProfile, RoughRoad
 from suspension.small_angle import full_geometry
 from suspension.sweep import drive, sweep
@@ -581,6 +582,19 @@ TABLE = [
         for function in (frequency.steady_start, frequency.rms)
     ),
     Row(
+        "rides",
+        rides,
+        {"robots": [ROBOT, ROBOT], "roads": RoughRoad(1e-5, length=1), "v": [2.0, 1.0]}
+        | {"ground": "pulls"},
+        {
+            "robots": [[ROBOT] * 3],
+            "roads": [[RoughRoad(1e-5), RoughRoad(1e-5, length=1)]],
+            "v": [*not_an_array([1.0, 2.0]), 0, [1, -1], [1, np.nan], [1, 2, 3], [1e-3, 1e-6]],
+            "ground": [*NOT_A_NUMBER, "pulled", "Pushes"],
+        },
+        {"robots": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "roads": [3, BUMP, len, "road"]},
+    ),
+    Row(
         "accuracy.errors",
         accuracy.errors,
         CROSS | {"dt": 0.01, "scheme": RK4},
@@ -698,7 +712,7 @@ TABLE = [
         )
         for function, more, bad in (
             (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_A_NUMBER}),
-            (choice.exclusion, {}, {}),
+            (choice.farthest, {"name": "k"}, {"name": ["K", None, 1]}),
         )
     ),
     Row(

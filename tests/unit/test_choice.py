@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from suspension.choice import candidate, cheapest, demands, efficient, exclusion, fitted_with
+from suspension.choice import candidate, cheapest, demands, efficient, farthest, fitted_with
 from suspension.flight import fly
 from suspension.least_force import margin
 from suspension.problem import DISTANCE
@@ -103,25 +103,28 @@ def test_where_nothing_keeps_contact_there_is_no_choice():
     assert cheapest(ROBOT, BUMP, ASKED, K[-3:], C) is None
 
 
-def test_a_region_without_contact_is_told_from_one_with_it():
-    without = exclusion(ROBOT, BUMP, [1.2], np.geomspace(500, 1200, 9), np.geomspace(1, 2, 7))
-    assert without.best < -5 and without.steepness > 2 and without.points == 63
-    with_it = exclusion(ROBOT, BUMP, [1.2], K, C)
-    assert with_it.best > 0 and with_it.steepness < 0
-    other = fitted_with(ROBOT, with_it.k, with_it.c)
-    np.testing.assert_allclose(margin(other, BUMP, 1.2), with_it.best)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["k", "c"])
+def test_nothing_beyond_the_farthest_keeps_contact(name):
+    """Brute force: all of a fine grid, beside which the search starts on a coarse one."""
+    most = farthest(ROBOT, BUMP, ASKED, K, C, name)
+    np.testing.assert_allclose(most.margin, 0, atol=1e-6)
+    k, c = np.geomspace(150, 1200, 53), np.geomspace(0.4, 4, 47)
+    kept = demands(ROBOT, BUMP, ASKED, k, c).margin > 0
+    beyond, own = (k, most.robot.k1) if name == "k" else (c[:, None], most.robot.c1)
+    assert not (kept & (beyond > own)).any()
+    assert (kept & (beyond > 0.94 * own)).any()
 
 
-def test_a_finer_grid_excludes_more_surely():
-    coarse, fine = (
-        exclusion(ROBOT, BUMP, [1.2], np.geomspace(500, 1200, n), np.geomspace(1, 2, n))
-        for n in (4, 8)
-    )
-    assert fine.steepness > coarse.steepness > 0
+def test_the_farthest_is_none_or_at_the_end_of_the_grid():
+    assert farthest(ROBOT, BUMP, ASKED, K[-3:], C, "k") is None
+    free = farthest(ROBOT, BUMP, [0.25], K, C, "k")
+    np.testing.assert_allclose(free.robot.k1, K[-1])
+    assert free.margin > 0
 
 
 @pytest.mark.parametrize("other", [{"k2": 700}, {"c1": 0, "c2": 0}, {"c2": 2}])
 def test_axles_must_be_alike_and_damped(other):
-    for function in (cheapest, exclusion):
+    for function, more in ((cheapest, ()), (farthest, ("k",))):
         with pytest.raises(ValueError, match="robot must have"):
-            function(replace(ROBOT, **other), BUMP, ASKED, K, C)
+            function(replace(ROBOT, **other), BUMP, ASKED, K, C, *more)

@@ -81,7 +81,7 @@ DRIVES = {  # every function that drives over the bump, with the rest of its arg
     "missed_dip": lambda bump, **way: accuracy.missed_dip(ROBOT, bump, 5, **way),
     "candidate": lambda bump, **way: choice.candidate(ROBOT, bump, [7, 9], **way),
     "cheapest": lambda bump, **way: choice.cheapest(ROBOT, bump, **GRID, **way),
-    "exclusion": lambda bump, **way: choice.exclusion(ROBOT, bump, **GRID, **way),
+    "farthest": lambda bump, **way: choice.farthest(ROBOT, bump, **GRID, name="k", **way),
 }
 each_drive = pytest.mark.parametrize("drive", DRIVES.values(), ids=DRIVES)
 

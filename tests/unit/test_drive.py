@@ -293,8 +293,8 @@ def test_a_robot_on_its_stop_is_one_with_that_stiffness_while_it_stays_there():
 # --- the full geometry ----------------------------------------------------------------------------
 
 
-def by_power(robot, bump, v, law, distance=1.25):
-    """Least force and largest pitch of a rigid body, from the power of its vertical forces.
+def by_power(robot, bump, v, law, ground="pulls", distance=1.25):
+    """Least force, largest pitch and airtime of a rigid body, from its vertical forces' power.
 
     Nothing but the place of a wheel is written down. Rates and lever arms are derivatives of it,
     taken along an imaginary step: Newton's equations follow from the power of the forces.
@@ -309,7 +309,9 @@ def by_power(robot, bump, v, law, distance=1.25):
     def forces(t, w):
         step = 1j * eps
         moved = compressions(t + step, w[0] + step * w[1], w[2] + step * w[3])
-        return law.force(moved.real) + robot.c * moved.imag / eps
+        spring = law.force(moved.real)
+        f = spring + robot.c * moved.imag / eps
+        return f if ground == "pulls" else np.where(spring >= 0, np.maximum(f, 0), 0)
 
     def rate(t, w):
         N = forces(t, w)
@@ -326,7 +328,7 @@ def by_power(robot, bump, v, law, distance=1.25):
     T = np.linspace(0, distance / v, 6001)
     W = run.sol(T)
     N = np.array([forces(t, w) for t, w in zip(T, W.T)]).T
-    return N.min(), np.abs(W[2]).max()
+    return N.min(), np.abs(W[2]).max(), (N <= 0).mean(axis=1) * distance / v
 
 
 @pytest.mark.slow
@@ -334,13 +336,24 @@ def by_power(robot, bump, v, law, distance=1.25):
 @pytest.mark.parametrize("robot", [replace(ROBOT, c1=5, c2=5), UNEQUAL], ids=["equal", "unequal"])
 def test_the_full_geometry_is_newtons(robot, v):
     law = SpringLaw(0.5, 12.0, 1.0, DELTA_MAX)
-    least, tilt = by_power(robot, BUMP, v, law)
+    least, tilt, _ = by_power(robot, BUMP, v, law)
     found = drive(robot, BUMP, v, law=law, ground="pulls", geometry="full")
     small = drive(robot, BUMP, v, law=law, ground="pulls")
     assert abs(found.margin - least) < 2e-3
     assert abs(small.margin - least) > 30 * abs(found.margin - least)
     if least > 0:
         assert math.isclose(found.pitch, tilt, rel_tol=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("v", [1.2, 5.0])
+def test_a_rigid_body_flies_and_lands_in_the_full_geometry(v):
+    law = SpringLaw(0.0, 13.2, 0.0, DELTA_MAX)
+    _, tilt, airtime = by_power(ROBOT, BUMP, v, law, ground="pushes")
+    small, full = (drive(ROBOT, BUMP, v, law=law, geometry=g) for g in ("small", "full"))
+    assert math.isclose(full.pitch, tilt, rel_tol=1e-3)
+    np.testing.assert_allclose(full.airtime, airtime, rtol=2e-3, atol=1.25 / v / 3000)
+    assert abs(small.pitch / tilt - 1) > 3 * abs(full.pitch / tilt - 1)
 
 
 def test_what_the_full_geometry_adds_is_cubic_in_the_height():

@@ -38,10 +38,11 @@ from suspension.figures import (
     plot_measured_run,
     plot_missed_dip,
     plot_near_zero,
+    plot_paths,
     plot_pitch,
     plot_residuals,
+    plot_rides,
     plot_ripples,
-    plot_rms,
     plot_road_signal,
     plot_rough_ride,
     plot_sampled_margin,
@@ -140,7 +141,13 @@ ON_ONE = {
     ),
     "plot_front": lambda ax: plot_front(C / 100, 1 + C, C - 2, {"now": (0.02, 2)}, ax),
     "plot_margins": lambda ax: plot_margins(V, {"now": FORCES[0], "then": FORCES[1]}, [1.2], ax),
-    "plot_rms": lambda ax: plot_rms(V, {"now": [1 + V, 2 + V]}, ([1, 2], [3, 4]), 7, ax),
+    "plot_paths": lambda ax: plot_paths(
+        {"follow": (V, 1 / V**2)},
+        {"now": (V, 1 + V), "then": (V, 2 + V)},
+        {name: (np.array([1.0, 2]), 3.0, np.array([True, False])) for name in ("now", "then")},
+        [0.5, 1],
+        ax=ax,
+    ),
     "plot_experiments": lambda ax: plot_experiments(*BOXES, np.zeros(2), ax),
     "plot_pitch": lambda ax: plot_pitch(KEPT, KEPT.T, KEPT.W[2], ax),
     "plot_free_wheels": lambda ax: plot_free_wheels(
@@ -152,11 +159,13 @@ ON_ONE = {
     "plot_energy": lambda ax: plot_energy(T, Energy(4 * T, T, T, 2 * T), [(0.2, 0.4)], ax),
     "plot_slopes": lambda ax: plot_slopes([0, 1], [1, 0.5], [-1, 0], (1, 0.6), (T, 1 - T), ax),
 }
+RIDES = np.array([[[[1.0, 2.0]], [[1.2, 2.5]]], [[[0.0, 0.1]], [[0.0, 0.2]]]])
 ON_TWO = {
     "plot_gains": lambda axes: plot_gains(V, HEAVE, HEAVE, ([0.4], [0.2]), axes),
     "plot_ripples": lambda axes: plot_ripples(
         V, FORCES[0], MODES, MODES, (V[::9], {name: x[::9] for name, x in MODES.items()}), axes
     ),
+    "plot_rides": lambda axes: plot_rides(V, {"now": 1 + V}, [1, 2], *RIDES, 7, axes),
     "plot_rough_ride": lambda axes: plot_rough_ride(
         T, 0.01 * T, T, [np.maximum(0, np.sin(9 * T)), 1 + T], axes
     ),
@@ -569,11 +578,25 @@ def test_a_rough_ride_is_shaded_where_a_wheel_is_in_the_air():
     assert high.min() > 0.48 and high.max() == 1
 
 
-def test_the_runs_lie_on_the_curves_of_the_root_mean_squares():
-    ax = plot_rms(V, {"now": [V, 2 * V]}, ([1.2, 5], [1.2, 5]), 7)
-    near(lines(ax)["long runs"].get_xydata(), [[1.2, 1.2], [5, 5]], 1e-15)
-    heights = [line.get_ydata()[0] for line in ax.lines if len(line.get_xdata()) == 2]
-    assert {7, 7 / 3} <= set(heights)
+def test_each_ride_is_a_dot_beside_the_curve_of_the_linear_robot():
+    _, axes = plt.subplots(1, 2)
+    plot_rides(V, {"now": V}, [1.0, 2.0], *RIDES, 7, axes)
+    dots = [line.get_ydata() for line in axes[0].lines if line.get_linestyle() == "None"]
+    near(np.sort(np.concatenate(dots)), [1, 1.2, 2, 2.5], 1e-15)
+    air = [line.get_ydata() for line in axes[1].lines if line.get_linestyle() == "None"]
+    near(np.sort(np.concatenate(air)), [0, 0, 10, 20], 1e-13)
+
+
+def test_a_choice_moves_along_lines_of_slope_minus_two():
+    lost = np.array([True, False])
+    points = {"now": (np.array([1.0, 4]), 2.0, lost), "soft": (np.array([2.0, 8]), 0.5, ~lost)}
+    ax = plot_paths({}, {name: (V, 1 + V) for name in points}, points, [1.2, 5])
+    grey = [line.get_xydata() for line in ax.lines if line.get_color() == "0.75"]
+    assert len(grey) == 2
+    for path, start in zip(grey, (1, 4)):
+        near(path[:, 1] * path[:, 0] ** 2, 2 * start**2, 1e-12)
+    filled = [line for line in ax.lines if line.get_marker() == "o" and len(line.get_xdata())]
+    assert {line.get_xdata()[0] for line in filled if line.get_mfc() != "white"} == {1, 8}
 
 
 def test_every_law_has_a_line_of_its_own():

@@ -1,6 +1,5 @@
 """Sentences about the wheels' contact, for springs, robots and speeds of every kind."""
 
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -68,7 +67,6 @@ def test_the_spring_beyond_its_measured_range_is_named():
     text = part.contact(drives(robot), ratios, robot, STRAIGHT)
     assert "asked stiffness" in text and "as far as it was measured" in text
     assert "**if the spring stays linear**" in text and "Even at rest" not in text
-    assert f"compressed to {ratios[1]:.2f}, {ratios[2]:.2f} and {ratios[3]:.2f} times" in text
     assert "At 1.2, 5 and 10\u00a0m/s they hold" in text
     soft = Robot(250, 250)
     assert "Even at rest" in part.contact(drives(soft), compressions(soft), soft, STRAIGHT)
@@ -76,7 +74,7 @@ def test_the_spring_beyond_its_measured_range_is_named():
     assert "no spring is compressed further" in text and "if the spring" not in text
     text = part.spring_sentence(drives(robot), [0.2, 0.2, 0.2, 1.5], robot, STRAIGHT)
     assert not faults(text)
-    assert "At 10\u00a0m/s they hold" in text and "in this order" not in text
+    assert "At 10\u00a0m/s they hold" in text
 
 
 def test_stiffnesses_that_were_chosen_are_not_called_measured():
@@ -104,10 +102,9 @@ def test_a_spring_that_is_not_linear_is_named():
     assert "contradict" not in text
 
 
-def test_a_margin_is_named_only_where_contact_is_kept():
+def test_what_comes_after_a_loss_is_told_only_where_there_is_one():
     runs = drives(Robot(793, 793))
     assert "margin" in part.table_note(runs) and "After" in part.table_note(runs)
-    assert "margin" not in part.table_note([runs[1]])
     assert "After" not in part.table_note([runs[0]])
 
 
@@ -156,8 +153,6 @@ def test_what_would_change_after_the_course_is_told():
     text = later(kept, lost[:2] + kept[2:])
     assert text.startswith("**The end of the run decides:**") and "1.2\u00a0m/s as well" in text
     assert "at every speed" in later(lost[1:3], kept[1:3])
-    deeper = [replace(run, N=run.N - 0.1) for run in kept]
-    assert "becomes smaller at 0.25, 1.2, 5 and 10" in later(kept, deeper)
 
 
 @pytest.mark.parametrize("k", STIFFNESSES)

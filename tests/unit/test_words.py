@@ -53,13 +53,6 @@ def test_small_values_are_not_rounded_to_nothing():
     assert words.confidence(0.0) == "<\u00a00.01\u00a0%"
 
 
-def test_small_angles_are_judged_by_the_sine_and_by_the_cosine_which_is_worse():
-    text = words.small_angle(np.radians(9.12)).replace("\u00a0", " ")
-    assert text.endswith("differ by 0.42 %, $\\cos\\theta$ and 1 by 1.3 %") and not faults(text)
-    assert "by 1.6 %" in words.small_angle(np.radians(17.8)).replace("\u00a0", " ")
-    assert "by 4.8 %" in words.small_angle(np.radians(17.8)).replace("\u00a0", " ")
-
-
 def test_lists_of_every_length():
     assert [words.join(range(n)) for n in range(4)] == ["none", "0", "0 and 1", "0, 1 and 2"]
     assert words.speed_list([]) == "no speed"

@@ -1,7 +1,8 @@
 // The chart: the highest bump crossed with contact against speed, the limits that one finds by hand,
 // and the bump itself as a line across, which one can take hold of.
 
-import { clamp, powers, show, trace } from "./pen.js";
+import { drawAxes, drawLine, logFrame } from "./axes.js";
+import { clamp, show, trace } from "./pen.js";
 import { distinct } from "./words.js";
 
 const REACH = 24; // pixels around the line that one can take hold of
@@ -12,33 +13,19 @@ export const chartPanel = {
   title: "The highest bump crossed with contact, at every speed",
   key: ({ settings: { k, c, height, sigma } }) => [k, c, height, sigma],
   still(pen, scene) {
-    const { w, h, stroke, fill, line, text, inside } = pen,
+    const { w, h, stroke, fill, inside } = pen,
       { curve, data, settings, highestBumps } = scene;
-    const [left, right, top, bottom] = [38, w - 12, 24, h - 33],
-      [slow, fast] = data.ranges.v,
-      [low, high] = data.chart.heights;
-    const px = (v) => left + ((right - left) * Math.log(v / slow)) / Math.log(fast / slow);
-    const py = (height) => bottom - ((bottom - top) * Math.log(height / low)) / Math.log(high / low);
+    const frame = logFrame(w, h, data.ranges.v, data.chart.heights),
+      { left, right, top, bottom, px, py } = frame;
     const y = clamp(py(settings.height), top, bottom); // of the bump
-    this.frame = { left, right, top, bottom, px, py, y, low, high };
-    text("Bump height (mm)", 0, 13, { colour: "ink", bold: true });
+    this.frame = { ...frame, y };
+    drawAxes(pen, frame, ["speed v (m/s)", "Bump height (mm)"], MM);
     pen.legend(138, 13, right, [
       { words: "highest with contact", colour: "ink", width: 3, ink: "ink" },
       ...(data.chart.limits.length
         ? [{ words: "limits by hand", colour: "soft", width: 1.2, dash: [6, 4] }]
         : []),
     ]);
-    text("speed v (m/s)", right, h - 4, { align: "right" });
-    for (const v of powers(slow, fast)) {
-      stroke("soft", 1);
-      line(px(v), bottom, px(v), bottom + 4);
-      text(show(v), px(v), bottom + 15, { align: "center" });
-    }
-    for (const mm of powers(MM * low, MM * high)) {
-      stroke("line", 1);
-      line(left, py(mm / MM), right, py(mm / MM));
-      text(show(mm), left - 6, py(mm / MM) + 4, { align: "right" });
-    }
     inside(left, top, right - left, bottom - top, () => {
       const own = trace(
         highestBumps,
@@ -49,13 +36,14 @@ export const chartPanel = {
       const above = new Path2D(own);
       for (const x of [right, left]) above.lineTo(x, -h);
       fill("alarm", 0.1, above);
-      for (const limit of data.chart.limits) drawLimit(pen, limit, settings, this.frame, slow, fast);
+      for (const limit of data.chart.limits) drawLimit(pen, limit, settings, this.frame);
       stroke("ink", 3, [], own);
     });
     drawBump(pen, scene, this.frame);
   },
   grab(_x, y) {
-    const { top, bottom, low, high } = this.frame;
+    const { top, bottom, ends } = this.frame,
+      [low, high] = ends.slice(2);
     if (Math.abs(y - this.frame.y) > REACH) return null;
     const to = (_x2, y2) => {
       const share = clamp((bottom - y2) / (bottom - top), 0, 1);
@@ -72,26 +60,10 @@ export const limitAt = ({ amplitude, powers: of }, settings, v) =>
     amplitude,
   );
 
-/** A limit as a thin line, its name along it where it is seen. */
-function drawLimit({ g, stroke, line, text }, limit, settings, frame, slow, fast) {
-  const { px, py, left, right, top, bottom } = frame;
-  const [from, to] = [slow, fast].map((v) => [px(v), py(limitAt(limit, settings, v))]);
-  if (![from[1], to[1]].every(Number.isFinite)) return; // no damper, no such limit
-  stroke("soft", 1.2, [6, 4]);
-  line(...from, ...to);
-  const slope = (to[1] - from[1]) / (to[0] - from[0]),
-    ends = [top + 16, bottom - 6].map((y) => clamp(from[0] + (y - from[1]) / slope, left, right));
-  if (Math.abs(ends[1] - ends[0]) < 40) return;
-  const places = [0.3, 0.15, 0.6].map((share) => {
-    const x = ends[0] + share * (ends[1] - ends[0]);
-    return [x, from[1] + slope * (x - from[0])];
-  });
-  const free = places.find(([, y]) => Math.abs(y - frame.y) > 20) ?? places[0]; // of the bump
-  g.save();
-  g.translate(...free);
-  g.rotate(Math.atan(slope));
-  text(limit.name, 0, -5, { align: "center", halo: true });
-  g.restore();
+/** A limit as a thin line; there is none that a damper makes where there is no damper. */
+function drawLimit(pen, limit, settings, frame) {
+  const heights = frame.ends.slice(0, 2).map((v) => frame.py(limitAt(limit, settings, v)));
+  if (heights.every(Number.isFinite)) drawLine(pen, limit.name, heights, frame, frame.y);
 }
 
 /** The bump across: thick where contact is kept, with the critical speeds and those asked for. */

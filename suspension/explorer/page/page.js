@@ -3,28 +3,10 @@
 
 import { linkOf, PREFIX } from "./phrases.js";
 import { readHash, writeHash } from "./state.js";
+import { makeModel } from "./values.js";
 import { render } from "./view.js";
 
 const PAUSE = 400; // ms after the last change, until the address says it
-
-/** What anywidget gives a view in JupyterLab: a model with get, set, on, off and save_changes. */
-function makeModel(values) {
-  const listeners = new Map();
-  return {
-    get: (name) => values[name],
-    set(name, value) {
-      if (Object.is(values[name], value)) return;
-      values[name] = value;
-      for (const listener of [...(listeners.get(`change:${name}`) ?? [])]) listener();
-    },
-    on(event, listener) {
-      if (!listeners.has(event)) listeners.set(event, new Set());
-      listeners.get(event).add(listener);
-    },
-    off: (event, listener) => listeners.get(event)?.delete(listener),
-    save_changes() {},
-  };
-}
 
 const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
 

@@ -3,9 +3,9 @@
 import { PANELS } from "./panels.js";
 import { begin } from "./pen.js";
 import { racePanel } from "./race.js";
+import { coloursOf, onTheme } from "./theme.js";
 
 const ALL = { ...PANELS, race: racePanel };
-const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "doubt", "paper"];
 
 /** `told` is called after a picture was drawn: with the options, and whether more than the moment changed. */
 export function makePainter({ root, canvases }, names, shown, told) {
@@ -55,21 +55,14 @@ export function makePainter({ root, canvases }, names, shown, told) {
   // ---- the theme's colours
 
   function readColours() {
-    const style = getComputedStyle(root);
-    painter.colours = { font: style.fontFamily };
-    for (const name of COLOURS) painter.colours[name] = style.getPropertyValue(`--se-${name}`).trim();
+    painter.colours = coloursOf(root);
     shown.looks++;
     redraw = true;
   }
-  const recolour = () => {
+  const leaveTheme = onTheme(() => {
     readColours();
     paint(); // at once, or paper would get the dark picture
-  };
-  const themes = new MutationObserver(recolour);
-  themes.observe(document.documentElement, { attributeFilter: ["data-theme"] });
-  themes.observe(document.body, { attributeFilter: ["data-jp-theme-light"] });
-  const contrasts = matchMedia("(forced-colors: active)");
-  contrasts.addEventListener("change", recolour);
+  });
 
   // ---- their sizes
 
@@ -87,9 +80,8 @@ export function makePainter({ root, canvases }, names, shown, told) {
   for (const { canvas } of panels) sizes.observe(canvas);
 
   function destroy() {
-    themes.disconnect();
+    leaveTheme();
     sizes.disconnect();
-    contrasts.removeEventListener("change", recolour);
     cancelAnimationFrame(frame);
   }
   return painter;

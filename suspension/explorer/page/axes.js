@@ -1,0 +1,49 @@
+// Logarithmic axes and straight lines on them, for the chart and for a curve that a reader draws.
+
+import { clamp, powers, show } from "./pen.js";
+
+/** A frame of logarithmic axes: where an x and a y lie in it, and what lies at a place. */
+export function logFrame(w, h, [x0, x1], [y0, y1]) {
+  const [left, right, top, bottom] = [38, w - 12, 24, h - 33];
+  return {
+    ...{ left, right, top, bottom, ends: [x0, x1, y0, y1] },
+    px: (x) => left + ((right - left) * Math.log(x / x0)) / Math.log(x1 / x0),
+    py: (y) => bottom - ((bottom - top) * Math.log(y / y0)) / Math.log(y1 / y0),
+  };
+}
+
+/** Round numbers along both axes, those of y `scale` times as large, and what they count. */
+export function drawAxes({ stroke, line, text }, { left, right, bottom, ends, px, py }, names, scale = 1) {
+  const [x0, x1, y0, y1] = ends;
+  text(names[1], 0, 13, { colour: "ink", bold: true });
+  text(names[0], right, bottom + 29, { align: "right" });
+  for (const x of powers(x0, x1)) {
+    stroke("soft", 1);
+    line(px(x), bottom, px(x), bottom + 4);
+    text(show(x), px(x), bottom + 15, { align: "center" });
+  }
+  for (const y of powers(scale * y0, scale * y1)) {
+    stroke("line", 1);
+    line(left, py(y / scale), right, py(y / scale));
+    text(show(y), left - 6, py(y / scale) + 4, { align: "right" });
+  }
+}
+
+/** A dashed line from edge to edge, its name along it where it is seen and no line across at `avoid`. */
+export function drawLine({ g, stroke, line, text }, name, [from, to], { left, right, top, bottom }, avoid) {
+  stroke("soft", 1.2, [6, 4]);
+  line(left, from, right, to);
+  const slope = (to - from) / (right - left),
+    ends = [top + 16, bottom - 6].map((y) => clamp(left + (y - from) / slope, left, right));
+  if (Math.abs(ends[1] - ends[0]) < 40) return;
+  const places = [0.3, 0.15, 0.6].map((share) => {
+    const x = ends[0] + share * (ends[1] - ends[0]);
+    return [x, from + slope * (x - left)];
+  });
+  const free = places.find(([, y]) => !(Math.abs(y - avoid) <= 20)) ?? places[0];
+  g.save();
+  g.translate(...free);
+  g.rotate(Math.atan(slope));
+  text(name, 0, -5, { align: "center", halo: true });
+  g.restore();
+}

@@ -1,0 +1,289 @@
+"""Words of Part X: a choice of suspension.
+
+A suspension is a robot, of which stiffness and damping, alike on both axles, are told. `candidates`
+holds a `suspension.choice.Candidate` for each by name, the present one first. After a loss of
+contact no margin is told.
+"""
+
+import numpy as np
+
+from suspension.report.rows import table
+from suspension.report.words import (
+    SPACE,
+    count,
+    fixed,
+    join,
+    number,
+    percent,
+    quantity,
+    ranges,
+    speed_list,
+)
+
+__all__ = [
+    "beaten",
+    "between",
+    "choice_table",
+    "conclusions",
+    "drive_links",
+    "farthest",
+    "measured_length",
+    "rest_note",
+    "robust_table",
+]
+
+ALMOST = 0.2  # of a logarithm: a fifth more or less
+SHOWN = 0.005  # N; a margin closer to zero is shown as zero
+
+
+def farthest(stiffest, strongest, asked):
+    """Up to which springs and dampers contact can be kept.
+
+    Parameters
+    ----------
+    stiffest, strongest : suspension.choice.Choice or None
+    asked : sequence of float
+        Speeds, m/s.
+    """
+    if stiffest is None:
+        return f"**Nowhere** on this map is contact kept at {speed_list(asked)}."
+    k, c = quantity(stiffest.robot.k1, "N/m", 4), quantity(strongest.robot.c1, "N s/m", 4)
+    other = quantity(stiffest.robot.c1, "N s/m", 4)
+    return (
+        f"**In a region that ends at {k} and {c}:** no stiffer spring and no stronger damper of "
+        f"this map keeps contact at {speed_list(asked)}. Those springs need dampers of {other}."
+    )
+
+
+def beaten(robot, better):
+    """Whether the present suspension is on the front of best compromises.
+
+    Parameters
+    ----------
+    robot : Robot
+    better : sequence of (float, float)
+        Suspensions that are better in all three criteria, k and c, N/m and N s/m, best first.
+    """
+    present = f"The present suspension, {_named(robot.k1, robot.c1)},"
+    if not len(better):
+        return f"{present} is **on the front**: none of the map is better in all three."
+    beat = "beats" if len(better) == 1 else "beat"
+    return (
+        f"{present} is **not on the front**: {count(len(better), 'suspension')} of the map {beat} "
+        f"it in all three, for example {_named(*better[0])}."
+    )
+
+
+def _named(k, c):
+    return f"{quantity(k, 'N/m')} and {quantity(c, 'N s/m')}"
+
+
+def choice_table(choices, candidates, limit):
+    """The suspensions beside each other: their margins, then what they ask for.
+
+    Parameters
+    ----------
+    choices : dict of str to suspension.choice.Choice or None
+        What was found for each demand, by the name of the suspension.
+    candidates : dict of str to suspension.choice.Candidate
+    limit : float
+        Largest displacement at which the spring was measured, m.
+    """
+    first, second = [], []
+    for name, one in candidates.items():
+        choice = choices.get(name)
+        first.append(
+            {
+                "suspension": name,
+                "k (N/m)": number(one.robot.k1),
+                "c (N s/m)": number(one.robot.c1),
+                "d": fixed(choice.distance, 2) if choice else "–",
+                **{f"{v:g}{SPACE}m/s": _margin(m) for v, m in one.margins.items()},
+            }
+        )
+        second.append(
+            {
+                "suspension": name,
+                "largest acceleration (m/s²)": fixed(one.worst.acceleration[0, 0], 1),
+                r"at rest, of $\delta_{\max{}}$": fixed(-one.robot.equilibrium[0] / limit, 2),
+                r"at most, of $\delta_{\max{}}$": fixed(one.worst.compression[0, 0] / limit, 2),
+                "in the air": part(one.worst.air[0, 0]),
+            }
+        )
+    words = ["Changes $d$, and margins in N at the asked speeds:", table(first)]
+    for name, choice in choices.items():
+        if choice is None:
+            words.append(f"“{name}”: **no suspension of the map** does it.")
+        elif not choice.distance:
+            words.append(f"“{name}”: **no change is needed**, the robot does it as it is.")
+    words += ["What they ask for, on a ground that only pushes:", table(second)]
+    return "\n\n".join(words)
+
+
+def _margin(margin):
+    """A margin in N; after a loss it is none."""
+    return "lost" if margin < -SHOWN else fixed(margin, 2)
+
+
+def part(fraction):
+    """A part of the time as a percentage, or that it is less than any that was counted."""
+    if fraction == 0:
+        return "–"
+    return f"<{SPACE}0.01{SPACE}%" if fraction < 1e-4 else percent(fraction, 2)
+
+
+def rest_note(fit, robot):
+    """What the linear spring of this part leaves out, if the readings contradict it."""
+    if fit.linearity().linear:
+        return ""
+    load = robot.m * robot.g / 2
+    line, parabola = load / fit.stiffness, fit.displacement(load) * fit.delta_max
+    return (
+        "The readings contradict a spring without preload and curvature. All of this part is "
+        f"reckoned with the line, on which the robot rests at {fixed(1000 * line, 1)}{SPACE}mm; on "
+        f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VIII]"
+        "(08-measured-spring.ipynb) says what else that changes."
+    )
+
+
+def measured_length(stiffest, limit):
+    """Whether a spring that carries the robot within its measured range can keep contact.
+
+    Parameters
+    ----------
+    stiffest : suspension.choice.Choice or None
+        Found among springs that do carry it so, too.
+    limit : float
+        Largest displacement at which the spring was measured, m.
+    """
+    if stiffest is None:
+        return "No suspension that was tried keeps contact, so there is nothing to ask."
+    robot = stiffest.robot
+    rest = -robot.equilibrium[0] / limit
+    words = (
+        f"On the stiffest springs with contact, {quantity(robot.k1, 'N/m', 4)}, the robot rests at "
+        rf"{fixed(rest, 2)} $\delta_{{\max{{}}}}$: "
+    )
+    if rest <= 1:
+        return words + "**yes,** within the displacements that were measured."
+    return words + "**no,** the spring must be longer than what was measured."
+
+
+def between(candidates):
+    """Where each suspension keeps contact in the range of the asked speeds."""
+    lines = [f"- **{name}**: contact is {ranges(one.regimes)}." for name, one in candidates.items()]
+    return "\n".join(lines)
+
+
+def robust_table(least):
+    """The least margin at the asked speeds when something is not as it was thought.
+
+    Parameters
+    ----------
+    least : dict of str to dict of str to float
+        For each case by name, and each suspension, N.
+    """
+    return table(
+        [
+            {"if": case, **{name: _margin(m) for name, m in margins.items()}}
+            for case, margins in least.items()
+        ]
+    )
+
+
+def drive_links(candidates, reach, v):
+    """Phrases that open the explorer with each suspension at `v` m/s; `reach`: its sliders."""
+    phrases, outside = [], []
+    for name, (robot, *_) in candidates.items():
+        if robot.k1 in reach["k"] and robot.c1 in reach["c"]:
+            settings = f"v={v:g}&k={robot.k1:.6g}&c={robot.c1:.6g}&motion=flying"
+            phrases.append(f"[{name}](../notebooks/12-drive.ipynb#explore:{settings})")
+        else:
+            outside.append(name)
+    words = [f"Drive them over the bump at {v:g}{SPACE}m/s: {join(phrases)}."] if phrases else []
+    if outside:
+        words.append(f"{join(outside).capitalize()}: beyond the end of the explorer's sliders.")
+    return " ".join(words)
+
+
+def conclusions(findings):
+    """What an engineer should take away: four sentences."""
+    sentences = [f(findings) for f in (_springs, _price, _reserve, _range)]
+    return "\n".join(f"{i}. {sentence}" for i, sentence in enumerate(sentences, 1))
+
+
+def _present(findings):
+    """The suspension as it is."""
+    return next(iter(findings.candidates.values()))
+
+
+def _springs(findings):
+    least, robot = findings.least, _present(findings).robot
+    asked = speed_list(_present(findings).margins)
+    if least is None:
+        return f"No suspension of those tried keeps contact at {asked}."
+    if least.distance == 0:
+        return f"As it is the robot keeps contact at {asked}: for these its suspension may stay."
+    dampers = f"dampers of {quantity(least.robot.c1, 'N s/m')}"
+    if abs(np.log(least.robot.c1 / robot.c1)) < ALMOST:
+        dampers = f"almost the same dampers, {quantity(least.robot.c1, 'N s/m')}"
+    return (
+        f"For contact at {asked} take springs of {quantity(least.robot.k1, 'N/m')}, "
+        f"{_times(least.robot.k1 / robot.k1)}, and {dampers}."
+    )
+
+
+def _price(findings):
+    least = findings.least
+    if least is None or least.distance == 0:
+        return "Where nothing is changed, nothing is paid."
+    now, then = (
+        next(one.worst for one in findings.candidates.values() if one.robot == robot)
+        for robot in (_present(findings).robot, least.robot)
+    )
+    room = [x.compression[0, 0] / findings.limit for x in (now, then)]
+    felt = [x.acceleration[0, 0] for x in (now, then)]
+    pays = "The price is room" if room[1] > room[0] else "It saves room"
+    does = "falls" if felt[1] < felt[0] else "rises"
+    return (
+        rf"{pays}: the largest compression goes from {fixed(room[0], 2)} to {fixed(room[1], 2)} "
+        rf"$\delta_{{\max{{}}}}$, while the largest acceleration {does} from {fixed(felt[0], 1)} "
+        f"to {fixed(felt[1], 1)}{SPACE}m/s²."
+    )
+
+
+def _reserve(findings):
+    reserved, robot = findings.reserved, _present(findings).robot
+    if reserved is None:
+        return "A reserve is not to be had in the range that was tried."
+    if reserved.distance == 0:
+        return (
+            f"The robot's margin, {quantity(reserved.margin, 'N')}, is a reserve against a bump "
+            "that is higher than thought."
+        )
+    share = reserved.margin / (robot.m * robot.g / 2)
+    return (
+        f"Do not stop where the margin is zero: {quantity(reserved.robot.k1, 'N/m')} buys a "
+        f"reserve of {percent(share)} of the load at rest, hence a bump that may be "
+        f"{percent(share / (1 - share))} higher."
+    )
+
+
+def _range(findings):
+    low, high = _present(findings).regimes.edges[[0, -1]]
+    where = f"from {low:g} to {high:g}{SPACE}m/s"
+    few = count(len(_present(findings).margins), "").split()[0]
+    ask = f"Ask for a range of speeds, not for {few}"
+    wide = findings.wide
+    if wide is None:
+        return f"{ask}; {where} no suspension of those tried keeps contact with that reserve."
+    held = next(one for one in findings.candidates.values() if one.robot == wide.robot)
+    lost = held.regimes.lost.any()
+    but = ", and even that loses contact between the speeds it is made for" if lost else ""
+    return f"{ask}: {where} it takes {quantity(wide.robot.k1, 'N/m')}{but}."
+
+
+def _times(ratio):
+    if ratio < 1:
+        return f"{fixed(1 / ratio, 1)} times softer"
+    return f"{fixed(ratio, 1)} times stiffer"

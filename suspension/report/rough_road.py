@@ -1,0 +1,92 @@
+"""Words of Part XI: rides on rough roads.
+
+`found` is a `suspension.rides.Rides` with the axes roads, suspensions and speeds, `longer` the same
+without the waves that are too short for the classes.
+"""
+
+import numpy as np
+
+from suspension.report.choosing import part
+from suspension.report.rows import table
+from suspension.report.words import SPACE, fixed, percent, speed_list
+
+__all__ = ["flights", "rides_table"]
+
+
+def rides_table(names, speeds, linear, short, found, longer):
+    """Means over the roads, and their standard deviations.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of s suspensions.
+    speeds : sequence of float
+        m/s.
+    linear, short : array_like, shape (s, speeds)
+        Root mean square of the rear wheel's force of the linear robot on the whole class, N, and
+        the part of its square that the short waves make.
+    found, longer : Rides
+    """
+    rows = []
+    for i, name in enumerate(names):
+        for j, v in enumerate(speeds):
+            flown, left = (each.flights[..., i, j].sum(axis=0) for each in (found, longer))
+            rows.append(
+                {
+                    "suspension": name,
+                    "v (m/s)": f"{v:g}",
+                    "force, linear (N)": fixed(linear[i][j], 2),
+                    "share of short waves": percent(short[i][j], 3),
+                    "force (N)": _spread(found.force[0, :, i, j], 2),
+                    "acceleration (m/s²)": _spread(found.acceleration[:, i, j], 2),
+                    "rear wheel in the air": part(found.air[0, :, i, j].mean()),
+                    "flights": _spread(flown, 1),
+                    "without the short waves": _spread(left, 1),
+                }
+            )
+    return table(rows)
+
+
+def _spread(values, decimals):
+    """Mean and standard deviation over the roads."""
+    if not np.any(values):
+        return "0"
+    mean = fixed(np.mean(values), decimals)
+    scatter = fixed(np.std(values, ddof=1), decimals)
+    return mean if float(scatter) == 0 else f"{mean} ± {scatter}"
+
+
+def flights(names, speeds, linear, found, longer):
+    """Who flies where, what that does to the force, and what short waves have to do with it.
+
+    Parameters
+    ----------
+    names, speeds, linear, found, longer
+        As for `rides_table`.
+    """
+    lines = []
+    for i, name in enumerate(names):
+        flown, left = (each.flights.sum(axis=0)[:, i] > 0 for each in (found, longer))
+        if not flown.any():
+            below = percent(1 - 0.05 ** (1 / len(flown)))
+            lines.append(
+                f"“{name}” flew on none of {len(flown)} roads. With 95{SPACE}% confidence it "
+                f"flies on less than {below} of such roads; so many roads say no more."
+            )
+            continue
+        flies = flown.any(axis=0)
+        line = f"“{name}” flies at {_speeds(speeds, flies)}"
+        if flown.all(axis=0).any():
+            line += f", on every road at {_speeds(speeds, flown.all(axis=0))}"
+        ratio = found.force[0, :, i].mean(axis=0)[flies] / linear[i][flies]
+        if (ratio < 1).all():
+            line += ". There the rear wheel's force scatters less than the linear robot's"
+        gone = flies & ~left.any(axis=0)
+        if gone.any():
+            line += f". Without the short waves it never does at {_speeds(speeds, gone)}"
+        lines.append(line + ".")
+    return "\n\n".join(lines)
+
+
+def _speeds(speeds, some):
+    return speed_list([v for v, one in zip(speeds, some) if one])

@@ -1,0 +1,176 @@
+"""Sentences of Part X, for springs and robots of every kind."""
+
+import numpy as np
+import pytest
+from cases import STIFFNESSES, faults, fitted
+
+from suspension.choice import Candidate, Choice, Demands, Findings, fitted_with
+from suspension.contact import Regimes
+from suspension.explorer.family import Family
+from suspension.report import choosing as part
+from suspension.road import GaussianBump
+from suspension.robot import Robot
+
+ASKED = (0.25, 1.2, 5.0, 10.0)
+ROBOT = Robot(793, 793)
+SOFT = fitted_with(ROBOT, 277, 1.57)
+LEAST, RESERVED = Choice(SOFT, 1.05, 0.0), Choice(fitted_with(ROBOT, 256, 1.58), 1.13, 0.71)
+WIDE = Choice(fitted_with(ROBOT, 161, 1.6), 1.6, 0.71)
+OWN = Choice(ROBOT, 0.0, 1.2)
+STIFFEST = Choice(fitted_with(ROBOT, 280, 1.97), 1.1, 0.0)
+HARD = Choice(fitted_with(ROBOT, 900, 3), 1, 0)
+LIMIT = 0.0165  # m
+
+
+def look(robot, critical=(), lost=(False,), margin=-2.5, asked=ASKED, felt=16.0, room=0.036):
+    """A Candidate."""
+    worst = Demands(*np.array([max(margin, 0), felt, room, 0.44]).reshape(4, 1, 1))
+    regimes = Regimes([asked[0], *critical, asked[-1]], lost)
+    return Candidate(robot, dict.fromkeys(asked, margin), worst, regimes)
+
+
+CHOICES = {"contact": LEAST, "with a reserve": None, "at every speed": WIDE}
+CANDIDATES = {
+    "as it is": look(ROBOT, [0.44, 7.9], [False, True, False]),
+    "contact": look(SOFT, margin=0.3, felt=9.0, room=0.051),
+    "at every speed": look(WIDE.robot, margin=0.7),
+}
+
+
+def plain(text):
+    """A text without its no-break spaces."""
+    return text.replace("\xa0", " ")
+
+
+def conclude(**changed):
+    found = Findings(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, CANDIDATES)
+    return plain(part.conclusions(found._replace(**changed)))
+
+
+@pytest.mark.parametrize("k", STIFFNESSES)
+def test_sentences_about_any_spring_are_sound(k):
+    robot = Robot(k, k)
+    candidates = CANDIDATES | {"as it is": look(robot, [0.44, 7.9], [False, True, False])}
+    least = {
+        "as thought": {"as it is": -2, "contact": 0.3},
+        "k less": {"as it is": 1, "contact": 2},
+    }
+    texts = [
+        part.farthest(STIFFEST, STIFFEST, ASKED),
+        part.beaten(robot, []),
+        part.beaten(robot, [(700, 3)]),
+        part.choice_table(CHOICES, candidates, LIMIT),
+        part.rest_note(fitted(k, preload=1.5, curvature=2.0), robot),
+        part.measured_length(STIFFEST, LIMIT),
+        part.between(candidates),
+        part.robust_table(least),
+        part.drive_links(candidates, Family(robot, GaussianBump()).ranges, 1.2),
+        part.conclusions(Findings(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, candidates)),
+    ]
+    for text in texts:
+        assert not faults(text)
+
+
+def test_the_farthest_springs_and_dampers():
+    text = plain(part.farthest(STIFFEST, Choice(SOFT, 1, 0), ASKED))
+    assert "ends at 280.0 N/m and 1.570 N s/m" in text and "need dampers of 1.970 N s/m" in text
+    assert "**Nowhere**" in part.farthest(None, None, ASKED)
+
+
+@pytest.mark.parametrize(
+    ("better", "words"),
+    [
+        ([], "is **on the front**: none of the map"),
+        ([(700, 2.4)], "**not on the front**: one suspension of the map beats it in all three"),
+        ([(700, 2.4)], "for example 700 N/m and 2.40 N s/m"),
+        ([(700, 2.4)] * 12, "12 suspensions of the map beat it"),
+    ],
+)
+def test_whether_the_present_suspension_is_beaten(better, words):
+    assert words in plain(part.beaten(ROBOT, better))
+
+
+def test_after_a_loss_no_margin_is_told():
+    table = plain(part.choice_table(CHOICES, CANDIDATES, LIMIT))
+    assert "| as it is | 793 | 1.50 | – | lost | lost | lost | lost |" in table
+    assert "2.5" not in table
+    assert "| contact | 277 | 1.57 | 1.05 | 0.30 |" in table and "16.0" in table and "44 %" in table
+    lost = plain(part.robust_table({"thought": {"it": -24.58, "other": -0.001}}))
+    assert "| thought | lost | 0.00 |" in lost
+
+
+def test_a_preload_that_the_readings_prove_is_told():
+    assert part.rest_note(fitted(793), ROBOT) == ""
+    note = plain(part.rest_note(fitted(793, preload=1.5), ROBOT))
+    load = ROBOT.m * ROBOT.g / 2
+    assert f"rests at {1000 * (load - 1.5) / 793:.1f} mm" in note
+
+
+def test_a_demand_that_is_met_or_cannot_be_is_told():
+    table = plain(part.choice_table(CHOICES | {"contact": OWN}, CANDIDATES, LIMIT))
+    assert "“contact”: **no change is needed**" in table
+    assert "“with a reserve”: **no suspension of the map** does it" in table
+    assert "“at every speed”:" not in table
+
+
+def test_what_a_spring_of_the_measured_length_can_do():
+    assert "**no,** the spring must be longer" in part.measured_length(STIFFEST, LIMIT)
+    assert "280.0 N/m, the robot rests at 0.51" in plain(part.measured_length(STIFFEST, 0.05))
+    assert "**yes,**" in part.measured_length(STIFFEST, 0.05)
+    assert "nothing to ask" in part.measured_length(None, LIMIT)
+
+
+def test_margins_without_and_with_critical_speeds():
+    both = {"a": look(ROBOT, [0.44], [False, True]), "b": look(SOFT, lost=[True])}
+    words = plain(part.between(both))
+    assert "kept up to 0.440 m/s and lost from there on" in words
+    assert "lost at every speed" in words
+
+
+def test_links_lead_to_what_the_sliders_reach():
+    reach = Family(ROBOT, GaussianBump()).ranges
+    soft = look(fitted_with(ROBOT, 100, 1))
+    text = part.drive_links({"this": look(SOFT), "that": soft}, reach, 1.2)
+    assert "[this](../notebooks/12-drive.ipynb#explore:v=1.2&k=277&c=1.57&motion=flying)" in text
+    assert "That: beyond the end" in text and "[that]" not in text
+    alone = part.drive_links({"that": soft}, reach, 1.2)
+    assert alone.startswith("That: beyond")
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({}, "springs of 277 N/m, 2.9 times softer, and almost the same dampers, 1.57 N s/m"),
+        (
+            {"least": HARD, "candidates": CANDIDATES | {"contact": look(HARD.robot)}},
+            "1.1 times stiffer, and dampers of 3",
+        ),
+        ({"least": OWN}, "for these its suspension may stay"),
+        ({"least": None}, "No suspension of those tried keeps contact"),
+        ({}, "The price is room: the largest compression goes from 2.18 to 3.09"),
+        ({}, "acceleration falls from 16.0 to 9.0 m/s²"),
+        (
+            {"candidates": CANDIDATES | {"contact": look(SOFT, felt=17.0, room=0.03)}},
+            "It saves room",
+        ),
+        (
+            {"candidates": CANDIDATES | {"contact": look(SOFT, felt=17.0, room=0.03)}},
+            "acceleration rises from 16.0 to 17.0",
+        ),
+        ({"least": OWN}, "Where nothing is changed, nothing is paid."),
+        ({}, "256 N/m buys a reserve of 9.9 % of the load at rest, hence a bump that may be 11 %"),
+        ({"reserved": OWN}, "The robot's margin, 1.20 N, is a reserve"),
+        ({"reserved": None}, "A reserve is not to be had"),
+        ({}, "from 0.25 to 10 m/s it takes 161 N/m."),
+        (
+            {"candidates": CANDIDATES | {"at every speed": look(WIDE.robot, [2, 3], [0, 1, 0])}},
+            "even that loses contact between the speeds",
+        ),
+        ({}, "Ask for a range of speeds, not for four: from"),
+        ({"wide": None}, "no suspension of those tried keeps contact with that reserve"),
+    ],
+)
+def test_an_engineers_sentences(changed, words):
+    text = conclude(**changed)
+    assert words in text and not faults(text)
+    assert [line[0] for line in text.splitlines()] == list("1234")
