@@ -2,18 +2,20 @@
 
 An anywidget has a single script. The page's modules import one another by plain named imports;
 each of them becomes a function that is called once and returns what the module exports, so that
-names stay as private as they were, and the module asked for stands at the end as it is.
+names stay as private as they were, and the module asked for stands at the end. Comments on lines of
+their own stay behind: a sixth of what a reader would have to load.
 """
 
 import re
 
-__all__ = ["bundle"]
+__all__ = ["bundle", "without_comments"]
 
 NAME = r"[A-Za-z_]\w*"
 IMPORT = re.compile(
     rf'^import \{{\s*({NAME}(?:,\s*{NAME})*),?\s*\}} from "\./({NAME})\.js";$', re.MULTILINE
 )
 EXPORT = re.compile(rf"^export (?=(?:function|const|class) ({NAME})\b)", re.MULTILINE)
+COMMENT = re.compile(r"^[ \t]*(?://.*|/\*(?s:.*?)\*/)\n", re.MULTILINE)
 # What is left of these words is something else, like `export * from` or `import(..)`.
 OTHER = re.compile(r"^\s*(?:import|export)\b.*|\bimport\s*[(.].*", re.MULTILINE)
 
@@ -49,7 +51,7 @@ def bundle(folder, entry):
         if module in opened:
             raise ValueError(f"{module}.js imports itself: {' > '.join([*opened, module])}")
         opened.append(module)
-        text = (folder / f"{module}.js").read_text(encoding="utf-8")
+        text = without_comments((folder / f"{module}.js").read_text(encoding="utf-8"))
         for names, other in IMPORT.findall(text):
             add(other)
             unknown = set(re.findall(NAME, names)) - set(exported[other])
@@ -66,6 +68,11 @@ def bundle(folder, entry):
 
     add(entry)
     return "".join(parts)
+
+
+def without_comments(text):
+    """A script or a style sheet without the comments that stand on lines of their own."""
+    return COMMENT.sub("", text)
 
 
 def _refuse_others(module, text, is_entry):

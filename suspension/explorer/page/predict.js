@@ -165,7 +165,7 @@ export function renderPrediction(model, el) {
             line.name,
             line.ends.map((end) => py(10 ** end)),
             frame,
-          );
+          )();
       if (isExact) p.stroke("ink", 2, [], trace(answer.exact));
     });
     if (pen) p.dot(px(atStop()), py(10 ** pen.height), 6, "paper", "ink", 2);
