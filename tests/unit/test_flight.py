@@ -789,13 +789,15 @@ def test_a_road_of_noise_is_told_where():
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 @pytest.mark.parametrize("part", [0, 1])
-def test_a_road_that_ends_on_the_way_is_told_where(value, part):
+def test_a_hole_in_a_road_is_told_where(value, part):
     def road(x):
         answer = list(BUMP(x))
-        answer[part] = np.where(x > 0.3, value, answer[part])
+        answer[part] = np.where(np.abs(x - 0.3) < 0.005, value, answer[part])
         return answer
 
-    with pytest.raises(ValueError, match=rf"got {('H', 'dHdx')[part]} not finite at x = 0\.[3-5]"):
+    with pytest.raises(
+        ValueError, match=rf"got {('H', 'dHdx')[part]} not finite at x = 0\.(29|30)"
+    ):
         fly(ROBOT, road, v=1.2, tfinal=0.5)
 
 

@@ -53,9 +53,7 @@ def test_nothing_is_said_that_was_not_found(found, longer, absent):
 def test_the_table_has_means_and_scatter():
     short = np.array([[0.997, 0.01], [0.1, 0.05]])
     table = plain(part.rides_table(NAMES, SPEEDS, LINEAR, short, SOME, NONE))
-    assert (
-        "| as it is | 5 | 7.00 | 1.00 % | 6.00 ± 0.60 | 3.00 ± 0.30 | 16 % | 8.0 ± 1.0 | 0 |"
-        in table
-    )
+    row = "| as it is | 5 | 7.00 | 1.00 % | 6.00 ± 0.60 | 3.00 ± 0.30 | 16 % | 8.0 ± 1.0 | 0 |"
+    assert row in table
     assert "99.7 %" in table and "| – | 0 | 0 |" in table
     assert not faults(table)

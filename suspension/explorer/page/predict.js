@@ -176,7 +176,8 @@ export function renderPrediction(model, el) {
   function describe() {
     const now = heights();
     if (pen) return `At ${symbol} = ${show(atStop(), 2)}: ${show(10 ** pen.height, 2)}.`;
-    if (!laid.size) return answer ? "Your curve. Lay on it what you have derived." : describeDrawn(now);
+    if (!laid.size || share(now) < ENOUGH)
+      return answer ? "Your curve. Lay on it what you have derived." : describeDrawn(now);
     const told = answer.lines
       .filter(({ name }) => laid.has(name))
       .map((line) => compareLine(now, line, { ...facts, ...answer }));
