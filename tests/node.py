@@ -49,8 +49,9 @@ for (const { asked, ...s } of settings) {
     answer.limits = data.chart.limits.map((limit) => [...speeds.map((v) => limitAt(limit, s, v))]);
     answer.words = describeChart({ data, curve, settings: s });
     Object.assign(answer, { speeds: [...speeds], critical: curve.critical });
-  } else if (asked === "flight") {
-    const { events, gaps, J, dt, airtime } = model.fly(data, robot, road, s, memory);
+  } else if (asked === "flight" || asked === "flight by the scheme") {
+    const method = asked === "flight" ? undefined : { scheme, dt: s.dt };
+    const { events, gaps, J, dt, airtime } = model.fly(data, robot, road, s, memory, method);
     const highest = gaps.map((gap) => gap.slice(0, J + 1).reduce((a, b) => Math.max(a, b)));
     Object.assign(answer, { events, highest, dt, airtime });
   }
@@ -92,12 +93,16 @@ def run_own_tests(folder):
     return report
 
 
-def ask_page(folder, explorer, asked, settings):
-    """The answers of the page's modules, one for each of the settings."""
+def give(folder, explorer, settings):
+    """Write given.json."""
     packed = {name: base64.b64encode(table).decode() for name, table in explorer.tables.items()}
-    settings = [{**setting, "asked": asked} for setting in settings]
     given = {"facts": explorer.facts, "tables": packed, "settings": settings}
     (folder / "given.json").write_text(json.dumps(given), encoding="utf-8")
+
+
+def ask_page(folder, explorer, asked, settings):
+    """The answers of the page's modules, one for each of the settings."""
+    give(folder, explorer, [{**setting, "asked": asked} for setting in settings])
     return [json.loads(line) for line in run_in_node(folder, ASK).splitlines()]
 
 
@@ -120,3 +125,11 @@ def random_settings(explorer, rng, count):
         if not explorer.family.has_bump:
             setting |= {name: own[name] for name in ("height", "sigma")}
         yield setting | {"scheme_index": int(rng.integers(len(explorer.schemes)))}
+
+
+def walk(folder, explorer, settings):
+    """What a page tells at many settings, and what differs in one that is opened at its link."""
+    give(folder, explorer, settings)
+    lay_out(folder)
+    shutil.copytree(ROOT / "tests" / "js", folder / "tests", dirs_exist_ok=True)
+    return [json.loads(line) for line in node(folder, "tests/walk.js").splitlines()]

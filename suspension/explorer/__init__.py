@@ -20,9 +20,20 @@ from suspension import _checks
 from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
-from suspension.explorer.family import Family, Range
+from suspension.explorer.family import Family, Range, before_the_bump
 from suspension.explorer.predict import Prediction
-from suspension.explorer.settings import CURVE, DTS, MOTIONS, REFERENCE, SCHEMES, VIEWS
+from suspension.explorer.settings import (
+    CLOSE,
+    CURVE,
+    DTS,
+    EDGE,
+    MOTIONS,
+    PACES,
+    REFERENCE,
+    SCHEMES,
+    SECONDS,
+    VIEWS,
+)
 from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
@@ -46,14 +57,15 @@ __all__ = [
 
 PAGE = Path(__file__).parent / "page"
 NUMBERS = tuple(control.trait for control in CONTROLS)
-# What an explorer shows and has sliders for: a whole one, a compact one, and the chart.
+# What an explorer shows and has sliders for: a whole one, a compact one, the chart, the race.
 PANELS = {
     False: ("robot", "speeds", "forces", "stability"),
     True: ("robot", "speeds"),
     "chart": ("chart",),
+    "race": ("race",),
 }
-SLIDERS = {False: NUMBERS, True: ("v",), "chart": ("c", "height")}
-TRAITS = (*NUMBERS, "scheme_index", "time", "motion")
+SLIDERS = {False: NUMBERS, True: ("v",), "chart": ("c", "height"), "race": ()}
+TRAITS = (*NUMBERS, "scheme_index", "time", "motion", "view", "pace", "mapped", "pin")
 WIDTHS = 4.0  # of a bump to either side of its middle: further away there is nothing of it
 CELLS = (512, 8192)  # steps of the curve over all speeds, at least and at most
 
@@ -81,6 +93,12 @@ class Explorer(anywidget.AnyWidget):
         What is drawn in front: the model of the problem, or wheels that leave the ground.
     view : str
         The panel drawn largest.
+    pace : {"fit", "same"}
+        Whether each crossing is played in the same time, or all are slowed alike.
+    mapped : bool
+        Whether the map over speed and stiffness stands in place of the curve over all speeds.
+    pin : dict
+        The settings of a run to compare with, by the names above; empty if there is none.
     """
 
     _esm = bundle(PAGE, "widget")
@@ -95,7 +113,10 @@ class Explorer(anywidget.AnyWidget):
     scheme_index = traitlets.Int(0).tag(sync=True)
     time = traitlets.Float(0.0).tag(sync=True)
     motion = traitlets.Unicode("linear").tag(sync=True)
-    view = traitlets.Unicode("forces").tag(sync=True)
+    view = traitlets.Enum(VIEWS, "forces").tag(sync=True)
+    pace = traitlets.Enum(PACES, "fit").tag(sync=True)
+    mapped = traitlets.Bool(False).tag(sync=True)
+    pin = traitlets.Dict().tag(sync=True)
     controls = traitlets.Unicode().tag(sync=True)
     facts = traitlets.Dict().tag(sync=True)
     tables = traitlets.Dict().tag(sync=True)
@@ -119,6 +140,7 @@ class Explorer(anywidget.AnyWidget):
         self.sliders = SLIDERS[compact]
         self.ranges = {"v": Range(*speeds, True)} | family.ranges
         robot = family.robot
+        load = robot.m * (robot.g or 1) / 2
         # A run may end one step past `distance`, and the front wheel is further ahead.
         start, stop = -robot.L1, distance + speeds[1] * DTS[-1] + robot.L2
         frame, table = shape_of(family.road, start, stop)
@@ -150,6 +172,10 @@ class Explorer(anywidget.AnyWidget):
                 "sliders": list(self.sliders),
                 "compact": bool(compact),
                 "chart": chart_facts(family, speeds, distance) if compact == "chart" else None,
+                "lanes": self.asked if compact == "race" else None,
+                "close": CLOSE * load,
+                "edge": EDGE * load,
+                "pace": float(f"{SECONDS * family.scale * START / distance:.1g}"),
                 "wide": wide,
                 "presets": presets,
                 "python": _python(family, self.schemes, distance),
@@ -165,6 +191,23 @@ class Explorer(anywidget.AnyWidget):
         name = proposal["trait"].name
         return _in_range(name, proposal["value"], self.ranges)
 
+    @traitlets.validate("pin")
+    def _check_pin(self, proposal):
+        """Refuse what is no run, and fill what is missing with the robot's and the road's own."""
+        pin = proposal["value"]
+        if not pin:
+            return {}
+        usual = {name: getattr(self, name) for name in (*NUMBERS, "scheme_index", "motion")}
+        for name in pin:
+            _checks.one_of("pin", name, usual)
+        pin = usual | pin
+        checked = {
+            name: _in_range(name, pin[name], self.ranges, f"{name} of pin") for name in NUMBERS
+        }
+        index = _checks.one_of("scheme_index of pin", pin["scheme_index"], range(len(self.schemes)))
+        motion = _checks.one_of("motion of pin", pin["motion"], MOTIONS)
+        return checked | {"scheme_index": index, "motion": motion}
+
     @traitlets.validate("time")
     def _check_time(self, proposal):
         return _fraction("time", proposal["value"])
@@ -179,7 +222,7 @@ class Explorer(anywidget.AnyWidget):
         It computes them at any settings to five digits; these are the ones that a text beside it
         names, and they take a moment, so they wait until the explorer is shown.
         """
-        if knows_all_speeds(self) or self.compact == "chart":
+        if self.compact != "race" and (knows_all_speeds(self) or self.compact == "chart"):
             at = {name: getattr(self, name) for name in ("k", "c", "height", "sigma")}
             if self.facts.get("exact", {}).get("at") != at:
                 exact = {"at": at, "critical": critical(self).tolist()}
@@ -271,13 +314,13 @@ class ExplorerBox(ipywidgets.VBox):
 
     def _html(self, drawn, hidden="", below=""):
         explorer = self.explorer
-        state = {name: getattr(explorer, name) for name in (*TRAITS, "view", "facts")}
+        state = {name: getattr(explorer, name) for name in (*TRAITS, "facts")}
         state["tables"] = {
             name: base64.b64encode(table).decode() for name, table in explorer.tables.items()
         }
         text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
         kind = " se-compact" if explorer.compact else " se-wide" if explorer.wide else ""
-        kind += " se-chart-only" if explorer.compact == "chart" else ""
+        kind += f" se-{explorer.compact}-only" if explorer.compact in ("chart", "race") else ""
         return (
             f'<div class="suspension-explorer-box se-page{kind}"><div class="se-layout">'
             f'<div class="se-controls"{hidden}>{explorer.controls}</div>'
@@ -345,8 +388,8 @@ def explore(
     scheme : Scheme
         What to start with: any scheme, or the name of one of `schemes`.
     time : float, optional
-        The moment to show first, a fraction of the run; if None, that of the loss of contact or of
-        the smallest force, and flying, when a wheel is highest above the ground.
+        The moment to show first, a fraction of the run; if None, the one before the front wheel
+        meets the bump, and of a race the start.
     motion : {"linear", "flying"}
         What is drawn in front: the linear model, or wheels that leave the ground.
     view : {"forces", "stability", "robot", "speeds"}
@@ -367,9 +410,11 @@ def explore(
     presets : sequence of (label, settings)
         More buttons that set the picture: settings is a dict of v, dt, k, c, height, sigma, scheme,
         time and motion, or of some of them; the others are those to start with.
-    compact : bool or "chart"
+    compact : bool, "chart" or "race"
         Only the robot, the curve over all speeds, and the slider for the speed; or only the chart
-        of the highest bumps, and the sliders for damping and height.
+        of the highest bumps, and the sliders for damping and height; or robots at the speeds asked
+        for, side by side on one road and by one clock. The first and the last play once by
+        themselves when they are seen, unless a reader wants little motion.
     wide : bool
         In a built page, use the window's whole width.
 
@@ -399,6 +444,8 @@ def explore(
     if spring_end is not None:
         spring_end = _checks.positive("spring_end", spring_end)
     asked = _speeds("asked", asked)
+    if compact == "race" and len(asked) < 2:
+        raise ValueError(f"asked must be two speeds or more for a race, got {asked!r}")
     low, high = family.speeds if speeds is None else _ends(speeds)
     if speeds is None:  # what is asked for by name can be reached
         low, high = min([low, *asked]), max([high, *asked])
@@ -430,7 +477,7 @@ def explore(
         **settings,
     )
     if time is None:
-        time = min(_moment_to_show(explorer) * explorer.v / distance, 1)
+        time = 0 if compact == "race" else min(before_the_bump(family, distance) / distance, 1)
     explorer.time = float(time)
     return ExplorerBox(explorer)
 
@@ -449,16 +496,6 @@ def _ends(speeds):
     except (TypeError, ValueError):
         raise ValueError(f"speeds must be a pair (low, high) in m/s, got {speeds!r}") from None
     return tuple(map(float, _checks.ends("speeds[0]", low, "speeds[1]", high)))
-
-
-def _moment_to_show(explorer):
-    """When a wheel is highest above the ground, contact is lost, or a force is least, s."""
-    if explorer.motion == "flying":
-        flight = explorer.flight()
-        if flight.events:
-            return flight.T[flight.gaps.max(axis=0).argmax()]
-    run = explorer.trajectory()
-    return run.loss.t if run.loss else run.T[run.N.min(axis=0).argmin()]
 
 
 def _preset(preset, names, ranges):
@@ -523,7 +560,8 @@ def _python(family, schemes, distance):
         "    scheme={scheme},",
         ")",
     ]
-    flight = f"flight = suspension.fly(robot, road, v={{v}}, tfinal={distance!r} / {{v}})"
+    flight = "# exactly; the page's own flight is by the scheme and the step above\n"
+    flight += f"flight = suspension.fly(robot, road, v={{v}}, tfinal={distance!r} / {{v}})"
     return {
         "text": "\n".join(lines),
         "flight": flight,

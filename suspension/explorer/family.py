@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from suspension.explorer.settings import DTS
-from suspension.road import GaussianBump
+from suspension.road import GaussianBump, profile
 
-__all__ = ["Family", "Range", "affine"]
+__all__ = ["Family", "Range", "affine", "before_the_bump"]
 
 # What fits the problem's robot and bump, in units of their own; another family gets as much.
 SPEEDS = (0.1, 25.0)  # m/s, while width times frequency is near UNIT
@@ -170,6 +170,19 @@ class Family:
                 "length": 0,
             },
         }
+
+
+def before_the_bump(family, distance, little=0.01):
+    """Where the robot is just before its front wheel meets the road's first bump, m.
+
+    That is where the road is `little` of its highest place above, or below, where it starts.
+    """
+    front = family.robot.L2
+    x = np.linspace(front, front + distance, 2001)
+    H = np.abs(profile(family.road, x)[0] - profile(family.road, x[:1])[0])
+    if not H.max() > 0:
+        return 0.0
+    return float(x[np.flatnonzero(H >= little * H.max())[0]] - front)
 
 
 def _round_up(x, steps=range(1, 10)):

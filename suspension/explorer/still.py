@@ -11,6 +11,7 @@ from suspension.contact import margin, regimes_between
 from suspension.critical import zeros
 from suspension.explorer.chart import describe_chart, draw_chart
 from suspension.figures import RobotDrawing, plot_forces, plot_margin, plot_stability
+from suspension.flight import fly
 from suspension.forces import WHEEL
 from suspension.least_force import minima
 from suspension.report.words import join, quantity
@@ -45,14 +46,20 @@ def draw(explorer):
     """The panels as SVG, once the explorer knows its critical speeds."""
     if explorer.compact == "chart":
         return svg(draw_chart(explorer))
+    if explorer.compact == "race":
+        return svg(_race(explorer))
     run = explorer.trajectory()
     return svg(_compact(explorer, run) if explorer.compact else _panels(explorer, run))
 
 
 def still(explorer, drawn):
     """What was drawn as an HTML image, with a text for those who cannot see it."""
-    is_chart = explorer.compact == "chart"
-    text = describe_chart(explorer) if is_chart else _describe(explorer, explorer.trajectory())
+    if explorer.compact == "chart":
+        text = describe_chart(explorer)
+    elif explorer.compact == "race":
+        text = _describe_race(explorer)
+    else:
+        text = _describe(explorer, explorer.trajectory())
     return still_image(drawn, text)
 
 
@@ -154,6 +161,58 @@ def _draw_robot(explorer, run, ax):
     drawing = RobotDrawing(ax, robot, explorer.road)
     drawing.ground(X - 3 * robot.L1, X + 3 * robot.L2)
     drawing.update(shown.W[:, n], X, gaps=flight.gaps[:, n] if flight else None)
+
+
+def _race(explorer):
+    """The robots at the speeds asked for, each where a wheel is highest or a force is least."""
+    robot, flights = explorer.robot, _flights(explorer)
+    with plt.style.context("suspension.figures.report"):
+        figure, axes = plt.subplots(len(flights), sharex=True, figsize=(7.2, 1.5 * len(flights)))
+        for ax, flight in zip(axes, flights, strict=True):
+            n = flight.gaps.max(axis=0).argmax() if flight.events else flight.N.min(axis=0).argmin()
+            drawing = RobotDrawing(ax, robot, explorer.road)
+            drawing.ground(-1.3 * robot.L1, explorer.distance + 1.3 * robot.L2)
+            drawing.update(flight.W[:, n], flight.v * flight.T[n], gaps=flight.gaps[:, n])
+            for event, landing in _airborne(flight):
+                arm = robot.arms[event.wheel - 1]
+                ends = [flight.v * event.t + arm, flight.v * landing + arm]
+                ax.plot(ends, [-0.006, -0.006], "-", lw=3, color="C3", solid_capstyle="butt")
+            ax.set_title(f"{flight.v:g} m/s: {_verdict(flight)}", loc="left", fontsize=10)
+            ax.set(xlabel="", ylabel="", yticks=[])
+        axes[-1].set_xlabel("x (m)")
+    return figure
+
+
+def _flights(explorer):
+    """How the robots of a race drive."""
+    return [
+        fly(explorer.robot, explorer.road, v=v, tfinal=explorer.distance / v)
+        for v in explorer.asked
+    ]
+
+
+def _airborne(flight):
+    """Pairs of a lift-off and the time of the landing after it, s."""
+    for n, event in enumerate(flight.events):
+        if event.kind == "lift-off":
+            later = [other.t for other in flight.events[n + 1 :] if other.wheel == event.wheel]
+            yield event, later[0] if later else flight.T[-1]
+
+
+def _verdict(flight):
+    off = {event.wheel for event in flight.events}
+    if not off:
+        return "both wheels stay on the ground"
+    if len(off) == 2:
+        return "both wheels leave the ground"
+    return f"the {WHEEL[off.pop()]} wheel leaves the ground"
+
+
+def _describe_race(explorer):
+    """What the race shows, in words."""
+    flights = _flights(explorer)
+    parts = [f"at {flight.v:g} metres per second {_verdict(flight)}" for flight in flights]
+    return f"{len(parts)} robots on one road over one bump, side by side: {'; '.join(parts)}."
 
 
 def _draw_speeds(explorer, ax):

@@ -70,7 +70,7 @@ def _set(text, **settings):
 def _faster(critical):
     start = (
         f"**Faster, and safer?** Step 1 ms, stiffness as fitted. Push v "
-        f"{_set('from 0.25 m/s', v=0.25)} to the end and watch the margin: its sign "
+        f"{_set('from 0.25 m/s', v=0.25)} to the end and watch the least force: its sign "
     )
     if not len(critical):
         return start + "does not turn anywhere on the slider."

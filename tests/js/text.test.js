@@ -84,3 +84,25 @@ test("the table has a line for each sample", () => {
   assert.deepEqual(lines.slice(1), ["0,0,1,0,0,0,7,6", "0.5,1,2,0,0,0,7,6"]);
   assert.equal(lines[0].split(",").length, 8);
 });
+
+test("an address tells of a pinned run what differs from the beginning, and always its speed", () => {
+  const initial = {
+    v: 1.2,
+    dt: 0.001,
+    k: 793.2,
+    scheme: "RK4",
+    motion: "linear",
+    view: "forces",
+    mapped: false,
+  };
+  const pin = { v: 1.2, dt: 0.001, k: 300, scheme: "Euler", motion: "flying" };
+  const text = writeHash({ ...initial, view: "speeds", mapped: true, pin }, { ...initial, pin: null });
+  assert.equal(text, "view=speeds&mapped=true&pin.v=1.2&pin.k=300&pin.scheme=Euler&pin.motion=flying");
+  const [, settings] = readHash(text);
+  assert.deepEqual(settings, {
+    view: "speeds",
+    mapped: true,
+    pin: { v: 1.2, k: 300, scheme: "Euler", motion: "flying" },
+  });
+  assert.deepEqual(readHash("view=top&mapped=maybe&pace=fast&pin.facts=1")[1], {});
+});

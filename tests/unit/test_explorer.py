@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import traitlets
 from ipywidgets import SelectionSlider
 from matplotlib.path import Path as Polygon
 from node import run_in_node
@@ -23,6 +24,7 @@ from suspension.explorer.controls import native
 from suspension.explorer.family import Family, Range, affine
 from suspension.explorer.sliders import stops
 from suspension.explorer.still import draw, picture
+from suspension.flight import fly
 from suspension.report.words import quantity, ranges
 from suspension.road import FlatRoad, GaussianBump
 from suspension.robot import Robot
@@ -187,14 +189,22 @@ def test_trajectory_is_simulate_at_the_settings():
     assert box.explorer.schemes == (*SCHEMES, HEUN)
 
 
-@pytest.mark.slow
-def test_it_starts_where_contact_is_lost_or_nearly():
-    lost = explore(ROBOT, BUMP, v=1.2).explorer
-    assert lost.time * 1.25 / 1.2 == pytest.approx(lost.trajectory().loss.t, abs=1e-3)
-    kept = explore(ROBOT, BUMP, v=0.25).explorer
-    run = kept.trajectory()
-    assert kept.time * 5 == pytest.approx(run.T[run.N.min(axis=0).argmin()], abs=5e-3)
-    assert explore(ROBOT, BUMP, time=0.25).explorer.time == 0.25
+@pytest.mark.parametrize("v", [0.25, 1.2, 10])
+@pytest.mark.parametrize(
+    "robot, road", [(ROBOT, BUMP), (LOPSIDED, two_bumps), (ROBOT, GaussianBump(-0.02))]
+)
+def test_it_opens_just_before_the_front_wheel_meets_the_bump(robot, road, v):
+    explorer = explore(robot, road, v=v).explorer
+    X = explorer.time * explorer.distance
+    ahead = X + robot.L2 - 0.3  # of the front wheel, beside the first bump's middle
+    assert -4 * BUMP.sigma < ahead < -2.5 * BUMP.sigma
+    assert abs(road(np.array([X + robot.L2]))[0][0]) < 0.02 * BUMP.height
+    wild = explore(robot, road, v=v, motion="flying").explorer
+    assert wild.time == explorer.time
+
+
+def test_a_level_road_is_opened_at_its_start():
+    assert explore(ROBOT, FlatRoad()).explorer.time == 0
 
 
 def test_what_python_has_set_stays_as_it_is():
@@ -550,15 +560,52 @@ def test_no_chart_without_a_load_or_a_bump(robot, road):
 
 
 @pytest.mark.slow
-def test_flying_it_starts_where_a_wheel_is_highest_and_so_is_drawn():
-    box = explore(ROBOT, BUMP, v=5, motion="flying", compact=True)
-    flight, linear = box.explorer.flight(), explore(ROBOT, BUMP, v=5, compact=True)
-    t = box.explorer.time * 1.25 / 5
-    assert t == pytest.approx(flight.T[flight.gaps.max(axis=0).argmax()], abs=1e-9)
-    linear.explorer.time = box.explorer.time
-    for explorer in (box.explorer, linear.explorer):
+def test_flying_it_is_drawn_with_its_wheels_in_the_air():
+    flying = explore(ROBOT, BUMP, v=5, motion="flying", compact=True).explorer
+    linear = explore(ROBOT, BUMP, v=5, compact=True).explorer
+    flight = flying.flight()
+    for explorer in (flying, linear):
+        explorer.time = flight.T[flight.gaps.max(axis=0).argmax()] * 5 / 1.25
         explorer.know_critical_speeds()
-    assert draw(box.explorer) != draw(linear.explorer)
+    assert draw(flying) != draw(linear)
+
+
+@pytest.mark.slow
+def test_a_race_has_a_lane_for_each_speed_and_a_still_picture_that_tells_who_lifts():
+    html = explore(ROBOT, BUMP, compact="race", motion="flying", asked=(0.25, 1.2, 5, 10)).html()
+    assert "se-race-only" in html and not re.findall(r'data-trait="(\w+)"', html)
+    state = state_of(html)
+    assert state["facts"]["lanes"] == [0.25, 1.2, 5, 10] and state["time"] == 0
+    alt, source = re.search(r'<img class="[\w-]+" alt="([^"]+)" src="([^"]+)">', html).groups()
+    for v in (0.25, 1.2, 5, 10):
+        said = re.search(rf"at {v:g} metres per second ([^;.]+)", alt)[1]
+        wheels = {event.wheel for event in fly(ROBOT, BUMP, v=v, tfinal=1.25 / v).events}
+        words = {0: "both wheels stay", 1: "wheel leaves", 2: "both wheels leave"}[len(wheels)]
+        assert words in said and (not wheels) == (margin(ROBOT, BUMP, v) > 0)
+    assert unquote(source).rstrip().endswith("</svg>")
+    with pytest.raises(ValueError, match="^asked must be two speeds or more for a race"):
+        explore(ROBOT, BUMP, compact="race", asked=(1,))
+
+
+def test_a_pin_is_a_run_or_refused():
+    explorer = explore(ROBOT, BUMP, v=1.2).explorer
+    explorer.pin = {"v": 5.0, "k": 300.0}
+    own = explorer.family.own
+    assert explorer.pin == own | {
+        "v": 5.0,
+        "k": 300.0,
+        "dt": 0.001,
+        "scheme_index": 3,
+        "motion": "linear",
+    }
+    for bad in ({"v": np.nan}, {"k": 1e9}, {"facts": 1}, {"motion": "walking"}):
+        with pytest.raises(ValueError, match="pin must be"):
+            explorer.pin = bad
+    explorer.pin = {}
+    assert explorer.pin == {}
+    for name, bad in (("pace", "fast"), ("view", "top"), ("mapped", "yes")):
+        with pytest.raises(traitlets.TraitError):
+            setattr(explorer, name, bad)
 
 
 def test_presets_become_buttons_that_the_page_can_set():
@@ -603,5 +650,5 @@ def test_the_still_picture_of_a_run_past_the_largest_number_has_words():
 
 def test_what_a_page_has_to_load_is_small():
     scripts = page_script() + page_style()
-    assert len(gzip.compress(scripts.encode())) < 44_000
+    assert len(gzip.compress(scripts.encode())) < 48_000
     assert not re.search(r"^\s*(import|export)\b", page_script(), re.MULTILINE)

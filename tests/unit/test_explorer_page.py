@@ -6,10 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from helpers import PARITY, ROOT, largest_difference
-from node import ask_page, node, random_settings, run_in_node, run_own_tests, unpack
+from node import ask_page, node, random_settings, run_in_node, run_own_tests, unpack, walk
 
 from suspension.contact import critical_speeds, margin, regimes
+from suspension.critical import critical_stiffness
 from suspension.explorer import SCHEMES, Explorer, explore
+from suspension.explorer.settings import MOTIONS
 from suspension.flight import fly
 from suspension.road import GaussianBump, road_input
 from suspension.robot import Robot
@@ -220,6 +222,115 @@ def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
     assert switches > 30
 
 
+@pytest.mark.parametrize("v", [0.8, 1.2, 2, 5])
+def test_a_flight_is_by_the_chosen_scheme_and_tends_to_that_of_fly(explorers, v, tmp_path):
+    """At the finest step the accurate schemes have fly's events; in long steps Euler has others."""
+    explorer = explorers["one bump"]
+    exact = fly(ROBOT, BUMP, v=v, tfinal=1.25 / v, resolution=0.02)
+    finest = explorer.ranges["dt"].low
+    cases = [(dt, index) for dt in (finest, 0.005) for index in range(len(SCHEMES))]
+    settings = [
+        {**explorer.family.own, "v": v, "dt": dt, "scheme_index": index} for dt, index in cases
+    ]
+    answers = ask_page(tmp_path, explorer, "flight by the scheme", settings)
+    error = {}
+    for (dt, index), answer in zip(cases, answers, strict=True):
+        assert answer["dt"] == dt
+        name, highest = SCHEMES[index].name, exact.gaps.max()
+        error[name, dt] = abs(max(answer["highest"]) - highest) / highest
+        first = answer["events"][0]
+        assert (first["wheel"] + 1, first["kind"]) == exact.events[0][:2]
+        assert first["t"] == pytest.approx(exact.events[0].t, abs=3e-3 if dt == finest else 0.02)
+        if dt == finest and SCHEMES[index].order > 1:
+            events = [(event["wheel"] + 1, event["kind"]) for event in answer["events"]]
+            assert events == [(event.wheel, event.kind) for event in exact.events], name
+            times = [event["t"] for event in answer["events"]]
+            np.testing.assert_allclose(times, [event.t for event in exact.events], atol=0.1 * dt)
+            assert error[name, dt] < 1e-3
+    assert error["Euler", finest] < 0.06 and error["Backward Euler", finest] < 0.06
+    assert error["Euler", 0.005] > 0.2 and error["Backward Euler", 0.005] > 0.2
+    assert error["RK4", 0.005] < 0.01
+
+
+def everything(explorer, rng, count):
+    """All that can be set, at random: a run, how one looks at it, what one compares it with."""
+    runs, pins = (list(random_settings(explorer, rng, count)) for _ in range(2))
+    for run, pin in zip(runs, pins, strict=True):
+        run |= {
+            "time": round(rng.uniform(), 6),  # an address has six digits
+            "motion": str(rng.choice(["linear", "flying"])),
+            "view": str(rng.choice(["forces", "stability", "speeds"])),
+            "pace": str(rng.choice(["fit", "same"])),
+            "mapped": bool(rng.uniform() < 0.05),
+            "pin": {},
+        }
+        if rng.uniform() < 0.3:
+            run["pin"] = pin | {"motion": str(rng.choice(["linear", "flying"]))}
+        yield run
+
+
+def test_picture_words_clock_and_link_tell_one_state(tmp_path):
+    """300 random settings, one after another: each is what its link opens, drawn and said."""
+    explorer = explore(
+        ROBOT, BUMP, asked=(0.25, 1.2, 5, 10), spring_end=0.0165, schemes=(*SCHEMES, HEUN)
+    ).explorer
+    settings = list(everything(explorer, np.random.default_rng(21), 300))
+    tones = set()
+    for setting, told in zip(settings, walk(tmp_path, explorer, settings), strict=True):
+        assert told["differs"] == [], (told["link"], told["differs"])
+        state, words, clock = told["state"], told["words"], told["clock"].replace("\u00a0", " ")
+        name = explorer.schemes[setting["scheme_index"]].name
+        assert state["scheme"] == name and state["v"] == told["moment"]["v"] == setting["v"]
+        assert state["pin"] is None or state["pin"]["k"] == setting["pin"]["k"]
+        t = setting["time"] * explorer.distance / setting["v"]
+        assert told["moment"]["t"] == pytest.approx(t, rel=1e-9, abs=1e-12)
+        robot, forces = (
+            [text.replace("\u00a0", " ") for text in told["texts"][name]]
+            for name in ("robot", "forces")
+        )
+        for i, symbol in enumerate(("N₁", "N₂")):
+            number = re.search(rf"{symbol} = (.+? N)\b", clock)[1]
+            force = told["moment"]["N"][i]
+            lost = {"linear": "lost", "flying": "in the air"}[setting["motion"]]
+            pressing = force is not None and force > 0
+            assert f"{symbol} {f'= {number}' if pressing else lost}" in robot, clock
+        assert f"Stability of {name}" in told["texts"]["stability"]
+        assert (
+            bool(told.get("pinned")) == bool(setting["pin"]) == ("faint: the pinned run" in robot)
+        )
+        faint = [text for text in robot if text.startswith("faint")]
+        assert len(faint) <= 1 and ("faint" in told["key"][0]) == bool(faint)
+        said = (words["headline"] + " ".join(words["details"])).replace("\u00a0", " ")
+        assert not re.search("NaN|undefined|null|Infinity", said + " ".join(told["key"]))
+        if setting["motion"] == "linear":
+            lost = words["tone"] == "lost"
+            assert not lost or "contact lost" in forces
+            assert words["tone"] != "kept" or "contact lost" not in forces
+        assert told["events"] == sorted(told["events"]) and told["events"][-1] == 1
+        tones.add((setting["motion"], words["tone"]))
+    expected = {(motion, tone) for motion in MOTIONS for tone in ("kept", "lost", "doubt")}
+    assert tones >= expected
+
+
+def test_on_the_edge_the_words_say_so(tmp_path):
+    """At a stiffness where the verdict turns, a sign says nothing; a little beside it does."""
+    explorer = explore(ROBOT, BUMP, v=5).explorer
+    flip = critical_stiffness(ROBOT, BUMP, 5, 200, 2500)[0]
+    run = {**explorer.family.own, "v": 5.0, "dt": 0.001, "scheme_index": 3}
+    others = {"time": 0.3, "view": "forces", "pace": "fit", "mapped": False, "pin": {}}
+    cases = [
+        run | others | {"k": k, "motion": motion}
+        for k in (flip, 1.01 * flip, 0.99 * flip)
+        for motion in MOTIONS
+    ]
+    told = [one["words"] for one in walk(tmp_path, explorer, cases)]
+    assert [one["tone"] for one in told[:2]] == ["edge", "edge"]
+    for one in told[:2]:
+        assert one["headline"].startswith("On the edge: least force") and "×" in one["headline"]
+    assert {one["tone"] for one in told[2:]} == {"kept", "lost"}
+    assert explorer.facts["edge"] == pytest.approx(1e-4 * ROBOT.m * ROBOT.g / 2)
+
+
 def test_the_pages_contact_law_is_what_python_says(tmp_path):
     """A wheel that may pull until its spring is at its length leaves the ground later."""
     explorer = explore(ROBOT, BUMP, v=5).explorer
@@ -332,6 +443,7 @@ def test_the_modules_own_tests_pass(tmp_path):
     print(run_own_tests(tmp_path))
 
 
+@pytest.mark.built
 def test_the_modules_are_formatted_and_have_no_lint():
     biome = ROOT / "book" / "npm" / "node_modules" / "@biomejs" / "biome" / "bin" / "biome"
     if not biome.exists():

@@ -37,6 +37,7 @@ export function makeFrame(el, facts, view) {
     spoken: make(root, "div", "se-spoken", { role: "status" }),
     tools: make(root, "div", "se-tools"),
     details: make(root, "p", "se-details"),
+    key: make(root, "p", "se-key"),
   };
   frame.canvases = facts.panels.map((name) => make(stage, "canvas", `se-${name}`, { role: "img" }));
   return frame;

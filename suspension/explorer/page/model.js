@@ -433,17 +433,17 @@ function zero(f, a, b, fa, fb) {
  * model with the others' forces left out, w' = (S + P s C) w + P s D u + e. The set follows from
  * the conditions that Python handed over: each is a quantity of either wheel that must be positive,
  * or zero. Where the set changes, the step is parted at the zero of the straight line between its
- * ends.
+ * ends. Null if the scheme cannot take such a step.
  */
-export function fly(data, robot, road, settings, memory) {
+export function fly(data, robot, road, settings, memory, method = finest(data, robot, settings)) {
   const { v } = settings,
-    scale = shortestScale(data, robot, settings),
-    end = data.distance / v;
-  const dt = Math.min(data.longestStep, scale.road / 16, 0.1 * scale.modes),
+    { scheme, dt } = method,
+    end = data.distance / v,
     J = countSteps(end, dt);
-  const motion = makeMotion(data, robot, road, v),
+  const motion = makeMotion(data, robot, road, v, scheme),
     { w, feel, press, advance, count, force, length } = motion;
   const full = [0, 1, 2, 3].map((set) => motion.prepare(set, dt));
+  if (full.includes(null)) return null;
   const W = [0, 1, 2, 3].map((i) => memory(`flying W${i}`, J + 1));
   const N = [0, 1].map((i) => memory(`flying N${i}`, J + 1));
   const gaps = [0, 1].map((i) => memory(`flying gap${i}`, J + 1)),
@@ -469,7 +469,7 @@ export function fly(data, robot, road, settings, memory) {
     saved.set(w);
     advance(full[set], n * dt);
     feel((n + 1) * dt, after);
-    if (press(after) === set) {
+    if (press(after) === set || !Number.isFinite(after[0] + after[1])) {
       [before, after] = [after, before];
     } else {
       w.set(saved);
@@ -478,6 +478,12 @@ export function fly(data, robot, road, settings, memory) {
     }
   }
   return { W, N, gaps, J, dt, v, events, airtime: airtime(events, end) };
+}
+
+/** What flights are judged by: the reference method, with steps that miss nothing. */
+function finest(data, robot, settings) {
+  const scale = shortestScale(data, robot, settings);
+  return { scheme: data.reference, dt: Math.min(data.longestStep, scale.road / 16, 0.1 * scale.modes) };
 }
 
 /**
@@ -516,8 +522,8 @@ function part(motion, start, dt, set, before, after, events) {
   return left > 0 ? press(last) : set;
 }
 
-/** The motion of a robot at a speed: its state w, and how it goes on with each set of wheels. */
-function makeMotion(data, robot, road, v) {
+/** The motion of a robot at a speed: its state w, and how a scheme goes on with each set of wheels. */
+function makeMotion(data, robot, road, v, scheme) {
   const { C, D, P, S, e, equilibrium, contact } = robot,
     w = Float64Array.from(equilibrium),
     u = new Float64Array(4),
@@ -544,13 +550,17 @@ function makeMotion(data, robot, road, v) {
     force: 2 * contact.force,
     length: 2 * contact.length,
     prepare(set, h) {
-      const { R, gains } = oneStep(data.reference, systems[set].A, h);
+      const step = oneStep(scheme, systems[set].A, h);
+      if (!step) return null;
+      const { R, gains } = step;
       const total = combine(...gains.map(([, G]) => [1, G]));
       const forcing = gains.map(([, G]) => flatten(multiply(G, systems[set].B)));
       return { R: flatten(R), weight: apply(total, e), places: gains.map(([c]) => c * h), forcing };
     },
-    advance({ R, weight, places, forcing }, t) {
-      const w0 = w[0],
+    advance(step, t) {
+      if (!step) return; // of the length of a part, the chance is nil
+      const { R, weight, places, forcing } = step,
+        w0 = w[0],
         w1 = w[1],
         w2 = w[2],
         w3 = w[3];
@@ -616,6 +626,29 @@ function airtime(events, end) {
     }
     return since === null ? total : total + Math.max(end - since, 0);
   });
+}
+
+/** When wheels were off the ground up to a time: [wheel, from, to]. */
+export function airborne({ run, flight }, motion, t) {
+  const found = [];
+  for (const i of [0, 1]) {
+    if (motion === "flying") {
+      const own = flight.events.filter(({ wheel }) => wheel === i);
+      own.forEach((event, n) => {
+        if (event.kind === "lift-off" && event.t <= t)
+          found.push([i, event.t, Math.min(own[n + 1]?.t ?? t, t)]);
+      });
+      continue;
+    }
+    let since = null;
+    for (let n = 0; n <= (run?.J ?? -1) && n * run.dt <= t; n++) {
+      const lost = !(run.N[i][n] > 0);
+      if (lost && since === null) since = n * run.dt;
+      if (!lost && since !== null) [since] = [null, found.push([i, since, n * run.dt])];
+    }
+    if (since !== null) found.push([i, since, t]);
+  }
+  return found;
 }
 
 /** The moment `at` steps after the start; between two samples on the straight line that is drawn. */

@@ -24,12 +24,16 @@ function begin() {
   let timer = 0,
     quiet = false;
 
-  /** Set the picture that a hash names, the others to where they began; true if it names one. */
-  const follow = (hash) => {
+  /**
+   * Set the picture that a hash names, the others to where they began. A phrase says a run, and
+   * leaves alone how one looks at it and what one compares it with; an address says all.
+   */
+  const follow = (hash, isPhrase = false) => {
     const [index, settings] = hash.startsWith(PREFIX) ? readHash(hash.slice(PREFIX.length)) : [0, null];
     quiet = true;
     explorers.forEach((view, i) => {
-      if (i === index && settings) view.apply({ ...view.initial, time: null, ...settings });
+      if (i === index && settings)
+        view.apply({ ...(isPhrase ? view.run : view.initial), time: null, ...settings });
       else if (!settings) view.apply(view.initial);
     });
     quiet = false;
@@ -58,7 +62,7 @@ function begin() {
     if (!hash?.startsWith(PREFIX)) return;
     event.preventDefault();
     if (location.hash !== hash) history.pushState(null, "", hash);
-    show(follow(hash));
+    show(follow(hash, true));
   });
   addEventListener("popstate", () => {
     clearTimeout(timer);

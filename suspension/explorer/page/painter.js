@@ -2,13 +2,15 @@
 
 import { PANELS } from "./panels.js";
 import { begin } from "./pen.js";
+import { racePanel } from "./race.js";
 import { coloursOf, onTheme } from "./theme.js";
-import { CLOSE } from "./words.js";
+
+const ALL = { ...PANELS, race: racePanel };
 
 /** `told` is called after a picture was drawn: with the options, and whether more than the moment changed. */
 export function makePainter({ root, canvases }, names, shown, told) {
   const panels = names.map((name, i) => ({
-    ...PANELS[name],
+    ...ALL[name],
     canvas: canvases[i],
     cache: document.createElement("canvas"),
     size: [0, 0],
@@ -30,10 +32,7 @@ export function makePainter({ root, canvases }, names, shown, told) {
     const scene = shown.scene();
     if (panels.every(({ size }) => !size[0])) return; // not on the page yet; its first size will bring us back
     if (!painter.colours) readColours();
-    const options = shown.options(),
-      { now, motion } = options;
-    const apart = scene.flight.events.length > 0 || (motion === "flying" && !(scene.run?.error < CLOSE));
-    options.ghost = apart ? (motion === "flying" ? now.linear : now.flying) : null;
+    const options = shown.options();
     for (const panel of panels) paintPanel(panel, scene, options);
     told(options, redraw);
     redraw = Boolean(options.map) && options.map.work(); // a map grows over several frames

@@ -4,8 +4,11 @@
 
 import { chartPanel } from "./chart.js";
 import { drawMap } from "./map.js";
+import { judge } from "./model.js";
 import { clamp, powers, show, ticks, trace } from "./pen.js";
-import { WHEEL } from "./words.js";
+import { extremes } from "./scene.js";
+import { drawStrip } from "./strip.js";
+import { FURTHER, ghostWords, WHEEL } from "./words.js";
 
 const NAMES = ["N₁", "N₂"];
 const FAR = 5000; // pixels
@@ -16,7 +19,7 @@ const REACH = 24; // pixels around a thing that one can take hold of
 export const robotPanel = {
   name: "robot",
   title: "The robot on its road",
-  live(pen, scene, { now, motion, ghost }) {
+  live(pen, scene, { now, motion, ghost, pinned }) {
     const { g, w, h, stroke, fill, line, text } = pen,
       { data, road, robot } = scene;
     const [rear, front] = data.wheels,
@@ -49,9 +52,12 @@ export const robotPanel = {
       text(`${show(x)} m`, px(x), h - 3, { align: "center" });
     }
     const place = { X, px, py, u, r: 0.055 * length, ride: 0.28 * length, scale };
+    drawStrip(pen, scene, X);
     if (ghost) {
-      drawRobot(pen, scene, place, ghost, true);
-      text(`faint: ${motion === "flying" ? "linear" : "flying"}`, 0, 13);
+      const theirs = new Float64Array(4);
+      [rear, front].forEach((offset, i) => ghost.scene.road(X + offset, theirs, i, 0));
+      drawRobot(pen, ghost.scene, { ...place, u: theirs }, ghost.state, true);
+      text(ghostWords(motion, pinned), 0, 13);
     }
     const shown = now[motion],
       wild = drawRobot(pen, scene, place, shown, false);
@@ -66,7 +72,7 @@ export const robotPanel = {
         halo: true,
       });
       if (data.springEnd !== null && spring > data.springEnd) {
-        text("beyond the measured spring", i ? w : 0, 30, {
+        text(FURTHER, i ? w : 0, 30, {
           align: i ? "right" : "left",
           colour: "doubt",
           bold: true,
@@ -75,7 +81,7 @@ export const robotPanel = {
       }
     });
     if (wild)
-      text("computed far outside this picture", w / 2, 14, { align: "center", colour: "doubt", bold: true });
+      text("computed far outside this picture", w / 2, 46, { align: "center", colour: "doubt", bold: true });
   },
   grab(x, _y, { now, scene }) {
     const { scale } = this,
@@ -93,10 +99,10 @@ const compression = ({ Cp, Dp }, W, u, i) =>
   Dp[i].reduce((sum, value, j) => sum + value * u[j], 0);
 
 /** The body, springs, dampers and wheels in one state; true if it is far outside the picture. */
-function drawRobot(
+export function drawRobot(
   { g, stroke, line, dot },
-  { data, robot, flight },
-  { X, px, py, u, r, ride, scale },
+  { data, robot },
+  { X, px, py, u, r, ride, scale, arrows = true },
   { W, N },
   faint,
 ) {
@@ -108,39 +114,41 @@ function drawRobot(
   const hubs = p.map((value, i) => u[i] + Math.max(-value, 0) + r); // on the ground, else hanging
   // How high the body rides and how large a wheel is drawn, the model does not know.
   const ends = p.map((value, i) => Math.max(u[i] - value + ride, hubs[i] + 1.7 * r));
-  const at = data.wheels.map((offset) => px(X + offset));
+  const at = data.wheels.map((offset) => px(X + offset)),
+    z = clamp((at[1] - at[0]) / 120, 0.4, 1); // springs and dampers of a small robot are small
   const body = ends.map((end, i) => [at[i], py(end)]);
   g.save();
   if (faint) g.globalAlpha = 0.3;
   body.forEach(([x, top], i) => {
     const hub = py(hubs[i]);
-    stroke(WHEEL[i], 1.8);
+    stroke(WHEEL[i], 1.8 * z);
     const coils = Array.from({ length: 13 }, (_, k) => [
-      x - 6 + (k < 2 || k > 10 ? 0 : k % 2 ? 6 : -6),
+      x + z * (k < 2 || k > 10 ? -6 : k % 2 ? 0 : -12),
       hub + ((top - hub) * k) / 12,
     ]);
     line(...coils.flat());
     const middle = (hub + top) / 2; // the damper: a rod in a cup
-    line(x + 9, top, x + 9, middle - 2);
-    line(x + 5, middle - 2, x + 13, middle - 2);
-    line(x + 4, middle - 9, x + 4, middle + 6, x + 14, middle + 6, x + 14, middle - 9);
-    line(x + 9, middle + 6, x + 9, hub);
-    line(x - 6, hub, x + 9, hub);
+    line(x + 9 * z, top, x + 9 * z, middle - 2 * z);
+    line(x + 5 * z, middle - 2 * z, x + 13 * z, middle - 2 * z);
+    const [edge, low, other, high] = [x + 4 * z, middle + 6 * z, x + 14 * z, middle - 9 * z];
+    line(edge, high, edge, low, other, low, other, high);
+    line(x + 9 * z, low, x + 9 * z, hub);
+    line(x - 6 * z, hub, x + 9 * z, hub);
     g.save();
-    dot(x, hub, r * scale, faint ? null : "paper", WHEEL[i], 3);
+    dot(x, hub, r * scale, faint ? null : "paper", faint || N[i] > 0 ? WHEEL[i] : "alarm", 3 * z);
     g.restore();
-    if (faint) return;
+    if (faint || !arrows) return;
     const foot = py(u[i]),
       beside = x + (i ? 1 : -1) * (r * scale + 16);
     const rest = clamp(0.2 * foot, 14, 34); // pixels for the force at rest
-    const arrow = clamp((rest * N[i]) / flight.N[i][0], 0, foot - 4);
+    const arrow = clamp((rest * N[i]) / robot.weight[i], 0, foot - 4);
     stroke(WHEEL[i], 2.5);
     if (arrow > 2) line(beside, foot, beside, foot - arrow);
     if (arrow > 7) line(beside - 4, foot - arrow + 6, beside, foot - arrow, beside + 4, foot - arrow + 6);
   });
   if (faint) g.globalAlpha = 0.3;
   g.lineCap = "round";
-  stroke("ink", 8);
+  stroke("ink", 8 * z);
   line(...body.flat());
   g.lineCap = "butt";
   if (!faint) {
@@ -148,10 +156,10 @@ function drawRobot(
     dot(
       body[0][0] + share * (body[1][0] - body[0][0]),
       body[0][1] + share * (body[1][1] - body[0][1]),
-      5,
+      5 * z,
       "paper",
       "ink",
-      2,
+      2 * z,
     );
   }
   g.restore();
@@ -301,22 +309,16 @@ export const forcesPanel = {
 };
 
 /** From where to where forces are drawn: the exact ones, and of others as much as leaves these legible. */
-function forceRange({ truth, flight }, flying, verdict, pinned) {
-  const exact = truth.verdict,
-    most = flying ? highest(flight, exact.most) : exact.most,
-    least = Math.min(0, flying ? 0 : exact.least);
+function forceRange(scene, flying, verdict, pinned) {
+  const exact = [extremes(scene, flying), ...(pinned ? [pinned.exact] : [])],
+    most = Math.max(...exact.map((other) => other.most)),
+    least = Math.min(0, ...exact.map((other) => other.least));
   const span = most - least || 1,
-    others = [...(flying ? [] : [verdict]), ...(pinned ? [pinned.verdict] : [])];
+    others = [flying ? judge(scene.flight) : verdict, ...(pinned ? [pinned.verdict] : [])];
   const low = Math.min(least, ...others.map((other) => other.least)),
     high = Math.max(most, ...others.map((other) => other.most));
   return [Math.max(low, least - 0.7 * span) - 0.06 * span, Math.min(high, most + 0.7 * span) + 0.06 * span];
 }
-
-const highest = (flight, most) => {
-  let top = Math.min(most, 1e9);
-  for (const N of flight.N) for (let n = 0; n <= flight.J; n++) if (N[n] > top) top = N[n];
-  return top;
-};
 
 /** When a wheel is in the air: the rear wheel in the upper half, the front wheel in the lower. */
 function shadeAirborne({ shade }, { events, dt, J }, px, top, bottom) {
@@ -356,14 +358,17 @@ export const speedsPanel = {
       [lowest, highestSpeed] = data.ranges.v;
     const [left, right, top, bottom] = [38, w - 12, 46, h - 33],
       rest = Math.max(...robot.weight);
-    const bottomForce = Math.min(...least[0], ...least[1]);
+    const bottomForce = Math.min(...[...least, ...(pinned?.least ?? [])].map((N) => Math.min(...N)));
     const low = Math.max(1.1 * Math.min(bottomForce, -0.4 * rest), -7 * rest),
       high = 1.9 * rest;
     const ratio = Math.log(highestSpeed / lowest);
     const px = (v) => left + ((right - left) * Math.log(v / lowest)) / ratio;
     const py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
     this.frame = { left, right, top, bottom, px, py, lowest, ratio };
-    text("Least force (N) at every speed", 0, 13, { colour: "ink", bold: true });
+    text(`Least force (N)${w > 310 ? " at every speed" : ""}, linear model`, 0, 13, {
+      colour: "ink",
+      bold: true,
+    });
     levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
     const edges = [lowest, ...critical, highestSpeed];
     edges.slice(1).forEach((edge, i) => {

@@ -39,7 +39,7 @@ function listen() {
       [index, settings] = readHash(anchor.slice(PREFIX.length - 1)),
       view = inOrder([...views].filter(inText))[index];
     if (!view) return false; // of another notebook, or not run yet
-    view.apply({ ...view.initial, time: null, ...settings });
+    view.apply({ ...view.run, time: null, ...settings });
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     view.box.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
     return true;

@@ -33,7 +33,9 @@ function remember() {
 /** A function of the settings that returns the scene. The next call overwrites its long arrays. */
 export function makeScenes(data) {
   const once = remember(),
-    spaces = { run: makeMemory(), truth: makeMemory(), flight: makeMemory() };
+    spaces = Object.fromEntries(
+      ["run", "truth", "flight", "exactFlight"].map((name) => [name, makeMemory()]),
+    );
   return (settings) => {
     const { v, dt, k, c, height, sigma, scheme_index } = settings,
       scheme = data.schemes[scheme_index];
@@ -43,20 +45,28 @@ export function makeScenes(data) {
     const road = once("road", [height, sigma], () => makeRoad(data.shape, settings));
     const here = [k, c, height, sigma],
       there = [...here, v];
-    const curve = once("curve", here, () => makeCurve(data, robot, road, settings));
-    const highestBumps = data.chart && once("chart", here, () => makeHighest(data, robot, curve, settings));
+    const curve = () => once("curve", here, () => makeCurve(data, robot, road, settings));
+    const highestBumps = () => once("chart", here, () => makeHighest(data, robot, curve(), settings));
     const truth = once("truth", [...there, dt], () => {
       const found = reference(data, robot, road, settings, spaces.truth);
       return { ...found, verdict: judgeExactly(found), beyond: beyond(data, robot, road, found) };
     });
-    const flight = once("flight", [...there, truth.verdict.lost ? "" : truth.J], () => {
-      if (!truth.verdict.lost) return grounded(truth);
-      const found = fly(data, robot, road, settings, spaces.flight);
-      return { ...found, beyond: beyond(data, robot, road, found) };
-    });
     const run = once("run", [...there, dt, scheme_index], () => {
       const found = simulate(data, robot, road, scheme, v, dt, J, spaces.run);
       return found && { ...found, verdict: judge(found), error: difference(found, truth) };
+    });
+    const exactFlight = () =>
+      once("exact flight", [...there, truth.verdict.lost ? "" : truth.J], () =>
+        truth.verdict.lost ? fly(data, robot, road, settings, spaces.exactFlight) : grounded(truth),
+      );
+    // By the same scheme and step as the run; the exact one if it cannot take the step.
+    const flight = once("flight", [...there, dt, scheme_index], () => {
+      const isFine = truth.each === 1, // then a wheel that lifts is not missed between two samples
+        found =
+          run?.verdict.lost === null && isFine
+            ? grounded(run)
+            : (fly(data, robot, road, settings, spaces.flight, { scheme, dt }) ?? exactFlight());
+      return { ...found, beyond: beyond(data, robot, road, found) };
     });
     const growths = robot.modes.map(([re, im]) => growth(scheme, [re * dt, im * dt]));
     const stable = run !== null && growths.every((size) => size <= STABLE);
@@ -70,8 +80,16 @@ export function makeScenes(data) {
       scheme,
       robot,
       road,
-      curve,
-      highestBumps,
+      // Only some pictures need these.
+      get curve() {
+        return curve();
+      },
+      get highestBumps() {
+        return highestBumps();
+      },
+      get exactFlight() {
+        return exactFlight();
+      },
       flight,
       truth,
       run,
@@ -107,11 +125,54 @@ function beyond(data, robot, road, { W, J, dt, v }) {
   return ranges;
 }
 
-/** What is shown at a fraction of the run: of the linear run and of the flight. */
-export function momentOf(scene, fraction) {
-  const t = fraction * scene.end;
+/** Robots at several speeds, for a race: the scene of the slowest, with those of all as its `lanes`. */
+export function makeRaces(data) {
+  const makers = data.lanes.map(() => makeScenes(data));
+  return (settings) => {
+    const lanes = makers.map((sceneAt, i) => sceneAt({ ...settings, v: data.lanes[i] }));
+    const slowest = lanes.reduce((a, b) => (b.v < a.v ? b : a));
+    return Object.assign(slowest, { lanes });
+  };
+}
+
+/**
+ * The time at a fraction of what is played: of one crossing; or of a race, where each robot gets as
+ * much of it as the next faster one, for the way that is left to it.
+ */
+export function timeAt(scene, fraction) {
+  const stops = stagesOf(scene),
+    stage = Math.min(Math.floor(fraction * (stops.length - 1)), stops.length - 2),
+    part = fraction * (stops.length - 1) - stage;
+  return part === 1 ? stops[stage + 1] : stops[stage] + part * (stops[stage + 1] - stops[stage]);
+}
+
+/** The fraction at a time. */
+export function fractionAt(scene, t) {
+  const stops = stagesOf(scene),
+    found = stops.findIndex((stop) => t <= stop),
+    stage = found < 0 ? stops.length - 1 : Math.max(found, 1);
+  return Math.min(
+    (stage - 1 + (t - stops[stage - 1]) / (stops[stage] - stops[stage - 1])) / (stops.length - 1),
+    1,
+  );
+}
+
+const stagesOf = ({ lanes, end }) => [
+  0,
+  ...new Set(lanes ? lanes.map((lane) => lane.end).sort((a, b) => a - b) : [end]),
+];
+
+/** What is shown at a time: of the linear run and of the flight. */
+export function momentAt(scene, t) {
   const linear = scene.run ? lookUp(scene.run, t / scene.dt) : { t, W: [0, 0, 0, 0], N: [NaN, NaN] };
   return { t, X: scene.v * t, linear, flying: lookUp(scene.flight, t / scene.flight.dt) };
+}
+
+/** What is shown at a fraction of the run. */
+export function momentOf(scene, fraction) {
+  const t = timeAt(scene, fraction),
+    { lanes } = scene;
+  return { ...momentAt(scene, t), lanes: lanes?.map((lane) => momentAt(lane, Math.min(t, lane.end))) };
 }
 
 /**
@@ -119,11 +180,14 @@ export function momentOf(scene, fraction) {
  * motion if the run tells another story; flying, where a wheel is highest above the ground.
  */
 export function momentToShow(scene, motion) {
-  const { run, truth, flight, end, stable } = scene;
-  if (motion === "flying" && flight.events.length) return Math.min(highest(flight) / end, 1);
+  const { run, truth, exactFlight, end, stable } = scene;
+  if (motion === "flying" && exactFlight.events.length) return Math.min(highest(exactFlight) / end, 1);
   const { lost, t } = (stable && !disagrees(scene) ? run : truth).verdict;
   return Math.min((lost ? lost.t : t) / end, 1);
 }
+
+/** Least and largest force of the exact motion. */
+export const extremes = (scene, flying) => (flying ? judge(scene.exactFlight) : scene.truth.verdict);
 
 /** When a wheel is highest above the ground. */
 function highest({ gaps, J, dt }) {

@@ -3,15 +3,23 @@
 
 import { makeMap } from "./map.js";
 import { judge } from "./model.js";
-import { makeScenes, momentOf } from "./scene.js";
+import { extremes, makeRaces, makeScenes, momentAt, momentOf } from "./scene.js";
 import { numbersOf, SETTINGS } from "./state.js";
-import { describePinned } from "./words.js";
+import { describe, describePinned } from "./words.js";
 
 export function makeShown(data, model) {
-  const sceneAt = makeScenes(data);
+  const sceneAt = (data.lanes ? makeRaces : makeScenes)(data);
   let scene = null,
     stale = true,
-    map = null;
+    map = null,
+    pinned = null;
+  const currentPin = () => {
+    const pin = model.get("pin"),
+      of = JSON.stringify(pin);
+    if (!pin?.v) return null;
+    if (pinned?.of !== of) pinned = { of, ...pinOf(makeScenes(data)(pin), pin.motion) };
+    return pinned;
+  };
   const currentMap = () => {
     const { c, height, sigma } = scene.settings,
       of = [c, height, sigma].join();
@@ -19,8 +27,6 @@ export function makeShown(data, model) {
     return map.picture;
   };
   const shown = {
-    pinned: null,
-    mapped: false,
     held: null,
     looks: 0, // counts changes of what is drawn that are no changes of the settings
     isComputed: () => scene !== null,
@@ -33,29 +39,45 @@ export function makeShown(data, model) {
     forget() {
       stale = true;
     },
-    options: () => ({
-      scene,
-      now: momentOf(scene, model.get("time")),
-      motion: model.get("motion"),
-      pinned: shown.pinned,
-      held: shown.held,
-      map: shown.mapped && currentMap(),
-    }),
-    /** What is kept of the run to compare others with. */
-    snapshot(headline) {
-      const { run, flight, v, curve, robot, dt, scheme, settings } = shown.scene(),
-        motion = run ? model.get("motion") : "flying",
-        kept = motion === "flying" ? flight : run;
+    options() {
+      const now = momentOf(scene, model.get("time")),
+        motion = model.get("motion"),
+        pinned = currentPin();
+      const apart = scene.flight.events.length > 0,
+        other = motion === "flying" ? now.linear : now.flying;
       return {
-        v,
-        dt: kept.dt,
-        verdict: judge(kept),
-        words: describePinned(settings, scheme, motion, headline),
-        N: kept.N.map((N) => N.slice(0, kept.J + 1)),
-        least: curve.least.map((N) => N.slice()),
-        z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
+        scene,
+        now,
+        motion,
+        pinned,
+        // The robot that is drawn faintly behind: of the pinned run, or of the other motion.
+        ghost: pinned
+          ? { scene: pinned.scene, state: pinned.stateAt(now.X) }
+          : apart && { scene, state: other },
+        held: shown.held,
+        map: model.get("mapped") ? currentMap() : null,
       };
     },
   };
   return shown;
+}
+
+/** What is shown of a pinned run: it is computed once, for its arrays are its own. */
+function pinOf(scene, wanted) {
+  const { run, flight, v, curve, robot, dt } = scene,
+    motion = run ? wanted : "flying",
+    kept = motion === "flying" ? flight : run;
+  return {
+    scene,
+    v,
+    dt: kept.dt,
+    verdict: judge(kept),
+    exact: extremes(scene, motion === "flying"),
+    words: describePinned(scene, motion, describe(scene, motion).headline),
+    N: kept.N.map((N) => N.slice(0, kept.J + 1)),
+    least: curve.least,
+    z: robot.modes.map(([re, im]) => [re * dt, im * dt]),
+    /** Its state where the centre of mass is at X. */
+    stateAt: (X) => momentAt(scene, Math.min(X / v, scene.end))[motion],
+  };
 }

@@ -4,25 +4,29 @@
 import { makeScale } from "./controls.js";
 import { write } from "./dom.js";
 import { show } from "./pen.js";
-import { describe } from "./words.js";
+import { describe, keyOf } from "./words.js";
 
 const PAUSE = 700; // ms after the last change, until a screen reader is told
 
-export function makeSpeaker({ box, status, headline, details, spoken }, data, shown) {
+export function makeSpeaker({ box, status, headline, details, key, spoken }, data, shown) {
   const settled = []; // called when nothing has changed for a while
   let timer = 0;
   return {
     headline: () => headline.textContent,
     onSettled: (listener) => settled.push(listener),
-    speak({ scene, motion, pinned, map }, panels) {
-      const { tone, headline: text, details: more } = describe(scene, motion);
+    speak({ scene, motion, pinned, map, now }, panels) {
+      const { tone, headline: text, details: more } = describe(scene, motion, now);
       write(headline, text);
       write(details, [...more, ...(pinned ? [pinned.words] : [])].join(" "));
+      write(key, keyOf(scene, motion, pinned).join("\n"));
       status.dataset.tone = tone;
       for (const { name, title, canvas } of panels) {
         const label = name === "speeds" && map ? "Kept or lost at every speed and stiffness" : title;
-        canvas.setAttribute("aria-label", `${label}. ${name === "speeds" ? describeSpeeds(scene) : text}`);
+        const said =
+          name === "speeds" ? describeSpeeds(scene) : scene.lanes ? describe(scene, motion).headline : text;
+        canvas.setAttribute("aria-label", `${label}. ${said}`);
       }
+      if (scene.lanes) return; // no slider of the speed
       const onTrack = onSpeedTrack(scene.curve, data);
       if (onTrack.join() === box.dataset.track) return;
       box.dataset.track = onTrack.join();

@@ -4,6 +4,14 @@ import { clamp } from "./pen.js";
 
 const SLIDERS = ["v", "dt", "k", "c", "height", "sigma"];
 const NUMBERS = [...SLIDERS, "time"];
+const CHOICES = {
+  motion: ["linear", "flying"],
+  view: ["forces", "stability", "robot", "speeds"],
+  pace: ["fit", "same"],
+  mapped: [false, true],
+};
+const GRAIN = 1e6; // moments in a crossing: few enough that an address says which
+const PIN = "pin."; // before the names of a pinned run's settings
 export const SETTINGS = [...SLIDERS, "scheme_index"]; // what a run depends on
 
 export const numbersOf = (model, names) => Object.fromEntries(names.map((name) => [name, model.get(name)]));
@@ -18,6 +26,7 @@ export function guarded(model) {
   const ends = (name) => (name === "time" ? [0, 1] : ranges[name]);
   const check = (name, value) => {
     if (name === "scheme_index") return schemes[value] ? value : undefined;
+    if (CHOICES[name]) return CHOICES[name].includes(value) ? value : undefined;
     if (!NUMBERS.includes(name)) return value;
     return typeof value === "number" && Number.isFinite(value)
       ? clamp(value, ...ends(name).slice(0, 2))
@@ -27,13 +36,14 @@ export function guarded(model) {
     get(name) {
       const value = check(name, model.get(name));
       if (value === undefined)
-        return good.has(name) ? good.get(name) : name === "scheme_index" ? 0 : ends(name)[0];
+        return good.get(name) ?? (name === "scheme_index" ? 0 : (CHOICES[name] ?? ends(name))[0]);
       good.set(name, value);
       return value;
     },
     set(name, value) {
       const checked = check(name, value);
-      if (checked !== undefined) model.set(name, checked);
+      if (checked === undefined) return;
+      model.set(name, name === "time" ? Math.round(GRAIN * checked) / GRAIN : checked);
     },
     on: (event, listener) => model.on(event, listener),
     off: (event, listener) => model.off(event, listener),
@@ -42,34 +52,46 @@ export function guarded(model) {
 }
 
 /** What of some settings, the scheme by its name, can be set: pairs of a model's names and values. */
-export function changesOf({ scheme, motion, ...numbers }, { ranges, schemes }) {
+export function changesOf({ scheme, pin, ...others }, facts) {
   const changes = {};
   for (const name of SLIDERS) {
-    const value = numbers[name];
-    if (typeof value === "number" && Number.isFinite(value) && ranges[name])
-      changes[name] = clamp(value, ...ranges[name].slice(0, 2));
+    const value = others[name],
+      range = facts.ranges[name];
+    if (typeof value === "number" && Number.isFinite(value) && range)
+      changes[name] = clamp(value, ...range.slice(0, 2));
   }
-  const index = schemes.findIndex(({ name }) => name.toLowerCase() === String(scheme).toLowerCase());
+  const index = facts.schemes.findIndex(({ name }) => name.toLowerCase() === String(scheme).toLowerCase());
   if (index >= 0) changes.scheme_index = index;
-  if (motion === "linear" || motion === "flying") changes.motion = motion;
+  for (const [name, allowed] of Object.entries(CHOICES)) {
+    if (allowed.includes(others[name])) changes[name] = others[name];
+  }
+  if (pin !== undefined) changes.pin = pin ? changesOf(runOf(pin), facts) : {};
   return changes;
 }
 
-/** Everything of a model that can be set, the scheme by its name. */
+/** Everything of a model that can be set, schemes by their names; `pin` is null or a run's settings. */
 export function settingsOf(model) {
-  const settings = numbersOf(model, NUMBERS);
-  settings.scheme = model.get("facts").schemes[model.get("scheme_index")].name;
-  settings.motion = model.get("motion");
+  const { schemes } = model.get("facts"),
+    pin = model.get("pin");
+  const settings = numbersOf(model, [...NUMBERS, ...Object.keys(CHOICES)]);
+  settings.scheme = schemes[model.get("scheme_index")].name;
+  settings.pin = pin?.v ? runOf({ ...pin, scheme: schemes[pin.scheme_index].name }) : null;
   return settings;
 }
 
+/** What of some settings makes a run: not how one looks at it. */
+export const runOf = (settings) =>
+  Object.fromEntries([...SLIDERS, "scheme", "motion"].map((name) => [name, settings[name]]));
+
 /** "v=5&scheme=RK4": what differs from the beginning. The index-th explorer of a page says so. */
-export function writeHash(settings, initial, index = 0) {
+export function writeHash({ pin, ...settings }, initial, index = 0) {
   const parts = new URLSearchParams();
   if (index) parts.set("on", index + 1);
   for (const [name, value] of Object.entries(settings)) {
-    if (value === initial[name]) continue;
-    parts.set(name, name === "time" ? String(Math.round(value * 1e4) / 1e4) : String(value));
+    if (value !== initial[name]) parts.set(name, String(value));
+  }
+  for (const [name, value] of Object.entries(pin ?? {})) {
+    if (name === "v" || value !== initial[name]) parts.set(PIN + name, value);
   }
   const changed = [...parts.keys()].some((name) => name !== "on");
   return changed ? parts.toString() : "";
@@ -79,13 +101,22 @@ export function writeHash(settings, initial, index = 0) {
 export function readHash(text) {
   const parts = new URLSearchParams(text),
     settings = {};
-  for (const [name, value] of parts) {
-    if (NUMBERS.includes(name)) {
-      const number = readNumber(value);
-      if (number !== null) settings[name] = number;
-    } else if (name === "scheme" || name === "motion") settings[name] = value;
+  for (const [full, value] of parts) {
+    const ofPin = full.startsWith(PIN),
+      name = ofPin ? full.slice(PIN.length) : full,
+      read = readSetting(name, value);
+    if (read === undefined) continue;
+    if (ofPin) settings.pin = { ...settings.pin, [name]: read };
+    else settings[name] = read;
   }
   return [Math.max(0, (Number(parts.get("on")) || 1) - 1), settings];
+}
+
+function readSetting(name, text) {
+  if (NUMBERS.includes(name)) return readNumber(text) ?? undefined;
+  if (name === "scheme") return text;
+  if (!Object.hasOwn(CHOICES, name)) return undefined;
+  return CHOICES[name].find((choice) => String(choice) === text);
 }
 
 /** A number with a decimal point or comma, a true or a typed minus; null if it is none. */

@@ -1,11 +1,15 @@
 // The buttons below the pictures: what is drawn, at which speed, beside what; and what one takes away.
 
 import { button, make, write } from "./dom.js";
+import { makeHistory } from "./history.js";
 import { plain } from "./pen.js";
-import { numbersOf, SETTINGS } from "./state.js";
+import { numbersOf, runOf, SETTINGS, settingsOf, writeHash } from "./state.js";
 import { pythonOf, savePicture, saveTable } from "./take.js";
 
-/** `act` holds what a button may do: set, apply, stop, change; what comes back follows the model. */
+const KEYS = { undo: "Control+Z", redo: "Control+Shift+Z" };
+const press = (button, pressed) => button.setAttribute("aria-pressed", String(pressed));
+
+/** `act` holds what a button may do: set, apply, stop; what comes back follows the model. */
 export function makeTools(frame, data, model, shown, speaker, painter, act) {
   const { tabs, tools, stage, box } = frame,
     undo = [];
@@ -18,6 +22,13 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
         tab.setAttribute("aria-pressed", String(own === view || (view === "robot" && own === "forces")));
       }
     },
+    mapped: () => over && press(over, model.get("mapped")),
+    pin() {
+      if (!pin) return;
+      const { v } = model.get("pin");
+      press(pin, Boolean(v));
+      write(pin, v ? `Unpin ${plain(v, 3)} m/s` : "Pin to compare");
+    },
     motion() {
       for (const choice of tools.querySelectorAll("[data-motion]"))
         choice.setAttribute("aria-pressed", String(choice.dataset.motion === model.get("motion")));
@@ -26,6 +37,8 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
       for (const step of undo) step();
     },
   };
+  let pin, over;
+  const history = addHistory();
   if (data.compact) return follow;
   for (const [view, text] of [
     ["speeds", "Speeds"],
@@ -41,26 +54,23 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
     button(motions, text, { "data-motion": motion }).addEventListener("click", () => act.set({ motion }));
   addPresets();
   const more = make(tools, "div", "se-more", { role: "group", "aria-label": "This picture" });
-  const pin = button(more, "Pin to compare", { "aria-pressed": "false" });
+  pin = button(more, "Pin to compare");
   pin.addEventListener("click", () => {
-    shown.pinned = shown.pinned ? null : shown.snapshot(speaker.headline());
-    pin.setAttribute("aria-pressed", String(Boolean(shown.pinned)));
-    write(pin, shown.pinned ? `Unpin ${plain(shown.pinned.v, 3)} m/s` : "Pin to compare");
-    act.change();
+    act.apply({ pin: model.get("pin").v ? null : runOf(settingsOf(model)) });
   });
-  const initial = act.initial;
+  for (const [name, text] of [
+    ["undo", "Undo"],
+    ["redo", "Redo"],
+  ])
+    history[`${name}Button`] = button(more, text, { "aria-keyshortcuts": KEYS[name] });
+  history.undoButton.addEventListener("click", history.undo);
+  history.redoButton.addEventListener("click", history.redo);
   button(more, "Reset").addEventListener("click", () => {
-    if (shown.pinned) pin.click();
-    if (shown.mapped) over.click();
     act.stop();
-    act.apply(initial);
+    act.apply({ ...act.initial, pin: undefined }); // what one compares with stays
   });
-  const over = button(more, "Map over v and k", { "aria-pressed": "false" });
-  over.addEventListener("click", () => {
-    shown.mapped = !shown.mapped;
-    over.setAttribute("aria-pressed", String(shown.mapped));
-    act.change();
-  });
+  over = button(more, "Map over v and k");
+  over.addEventListener("click", () => act.set({ mapped: !model.get("mapped") }));
   addMenu();
   if (document.fullscreenEnabled) {
     const full = button(more, "Full screen"),
@@ -71,8 +81,8 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
     document.addEventListener("fullscreenchange", tell);
     undo.push(() => document.removeEventListener("fullscreenchange", tell));
   }
-  follow.view();
-  follow.motion();
+  for (const name of ["view", "motion", "mapped", "pin"]) follow[name]();
+  history.note();
   return follow;
 
   function addPresets() {
@@ -83,8 +93,43 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
         button(asked, `${plain(v)} m/s`).addEventListener("click", () => act.apply({ v, time: null }));
     }
     data.presets.forEach(([, settings], i) => {
-      written[i].addEventListener("click", () => act.apply({ ...act.initial, time: null, ...settings }));
+      written[i].addEventListener("click", () => act.apply({ ...act.run, time: null, ...settings }));
     });
+  }
+
+  /** What a reader does, one thing after another: a gesture begins a new one, or a pause. */
+  function addHistory() {
+    const made = makeHistory(
+      () => settingsOf(model),
+      act.apply,
+      ({ time, ...others }) => writeHash(others, {}),
+      () => {
+        made.undoButton?.setAttribute("aria-disabled", String(!made.canUndo()));
+        made.redoButton?.setAttribute("aria-disabled", String(!made.canRedo()));
+      },
+    );
+    let typing = null;
+    const type = ({ type, target }) => (typing = type === "input" ? target : null);
+    const key = (event) => {
+      const { target } = event;
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z") return;
+      if (target === typing) return; // what is typed has its own
+      if (target.matches?.("input[type=text]")) frame.stage.focus({ preventScroll: true }); // shows what is set
+      event.preventDefault();
+      event.stopPropagation();
+      if (event.shiftKey) made.redo();
+      else made.undo();
+    };
+    const heard = { keydown: key, pointerdown: made.note, input: type, change: type };
+    for (const [name, listener] of Object.entries(heard))
+      box.addEventListener(name, listener, { capture: true });
+    frame.stage.tabIndex = -1; // so that keys go on coming here from one who has touched a picture
+    speaker.onSettled(made.note);
+    undo.push(() => {
+      for (const [name, listener] of Object.entries(heard))
+        box.removeEventListener(name, listener, { capture: true });
+    });
+    return made;
   }
 
   function addMenu() {

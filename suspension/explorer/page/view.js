@@ -11,7 +11,7 @@ import { addProbes } from "./probe.js";
 import { momentToShow } from "./scene.js";
 import { makeShown } from "./shown.js";
 import { makeSpeaker } from "./speaker.js";
-import { changesOf, guarded, SETTINGS, settingsOf } from "./state.js";
+import { changesOf, guarded, runOf, SETTINGS, settingsOf } from "./state.js";
 import { makeTools } from "./tools.js";
 
 /**
@@ -31,17 +31,23 @@ export function render(anyModel, el) {
     model.save_changes();
   };
   /** Set many things at once; a time of null means: where it is worth looking. */
-  const apply = ({ time, ...others }) => {
-    set(changesOf(others, data));
-    if (time === null) set({ time: momentToShow(shown.scene(), model.get("motion")) });
-    else if (time !== undefined) set({ time });
+  const apply = ({ time, pin, ...others }) => {
+    set(changesOf({ ...others, pin: pin && { ...initial, ...pin } }, data));
+    if (pin === null) set({ pin: {} });
+    if (time === undefined) return;
+    if (time === null || time === initial.time) player.refresh();
+    set({ time: time ?? momentToShow(shown.scene(), model.get("motion")) });
   };
   const painter = makePainter(frame, facts.panels, shown, (options, isNew) => {
-    if (isNew) speaker.speak(options, painter.panels);
+    if (isNew || facts.lanes) speaker.speak(options, painter.panels);
     player.show(options);
   });
   const speaker = makeSpeaker(frame, data, shown),
-    player = makePlayer(frame, model, set, painter.schedule);
+    player = makePlayer(frame, facts, model, shown, {
+      set,
+      schedule: painter.schedule,
+      settled: () => speaker.announceLater(player.isPlaying),
+    });
   const announceLater = () => speaker.announceLater(player.isPlaying);
   const change = () => {
     shown.looks++;
@@ -52,11 +58,12 @@ export function render(anyModel, el) {
     if (Object.keys(others).length) apply({ ...others, time });
     else set({ time });
   });
+  const run = runOf(initial);
   const tools = makeTools(frame, data, model, shown, speaker, painter, {
     set,
     apply,
-    change,
     initial,
+    run,
     stop: player.stop,
   });
 
@@ -66,13 +73,22 @@ export function render(anyModel, el) {
       painter.schedule();
       if (!player.isPlaying()) announceLater();
     },
-    view: tools.view,
-    motion() {
-      tools.motion();
-      painter.change();
+    view() {
+      tools.view();
+      announceLater();
+    },
+    pace() {
+      painter.schedule();
       announceLater();
     },
   };
+  for (const name of ["motion", "mapped", "pin"]) {
+    listeners[name] = () => {
+      tools[name]();
+      change();
+      announceLater();
+    };
+  }
   for (const name of SETTINGS) {
     listeners[name] = () => {
       shown.forget();
@@ -86,6 +102,7 @@ export function render(anyModel, el) {
   return {
     apply,
     initial,
+    run,
     box: frame.box,
     settings: () => settingsOf(model),
     onSettled: speaker.onSettled,

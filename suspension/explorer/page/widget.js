@@ -6,8 +6,9 @@ import { render } from "./view.js";
 
 export default {
   render({ model, el }) {
-    const { compact, chart } = model.get("facts"),
-      kind = (compact ? " se-compact" : "") + (chart ? " se-chart-only" : "");
+    const { compact, chart, lanes } = model.get("facts"),
+      kind =
+        (compact ? " se-compact" : "") + (chart ? " se-chart-only" : "") + (lanes ? " se-race-only" : "");
     const box = make(el, "div", `suspension-explorer-box se-page${kind}`);
     const layout = make(box, "div", "se-layout");
     make(layout, "div", "se-controls").innerHTML = model.get("controls");

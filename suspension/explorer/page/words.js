@@ -1,64 +1,88 @@
 // What the pictures say, in words: never more certain than the numbers.
 
+import { airborne } from "./model.js";
 import { show } from "./pen.js";
 
 export const WHEEL = ["rear", "front"];
-export const CLOSE = 1e-5; // N; forces that differ by less are called equal
+export const FURTHER = "squeezed past its readings"; // a spring
 
 export const unit = (x, name, digits) => `${show(x, digits)}\u00a0${name}`;
 const equals = (name, ...value) => `${name}\u00a0=\u00a0${unit(...value)}`; // on one line
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 /**
- * `tone` is "kept", "lost" or "doubt" (where the run and the exact answer differ, or there is no
- * verdict); `headline` comes before anything else, `details` after it.
+ * `tone` is "kept", "lost", "edge" (too close to tell), "doubt" (where the run and the exact answer
+ * differ, or there is no verdict) or "open" (not told yet); `headline` comes before anything else,
+ * `details` after it.
  */
-export function describe(scene, motion) {
+export function describe(scene, motion, now) {
   if (scene.data.chart) return describeChart(scene);
+  if (scene.lanes) return describeRace(scene, motion, now);
   return motion === "flying" ? describeFlight(scene) : describeRun(scene);
 }
 
 const place = ({ v }, t, digits) => `${equals("t", t, "s", digits)}, ${equals("X", v * t, "m", digits)}`;
 const wheel = (scene, { wheel, t }) => `${WHEEL[wheel]} wheel, ${place(scene, t)}`;
 const least = (scene, verdict) => `least force ${unit(verdict.least, "N")} (${wheel(scene, verdict)})`;
+const method = ({ scheme, dt }) => `${scheme.name} at ${equals("Δt", 1000 * dt, "ms")}`;
+
+/** Whether the exact least force is so close to zero that its sign says nothing. */
+const isEdge = ({ truth, data }) => Math.abs(truth.verdict.least) < data.edge;
 
 function outcome(scene, verdict) {
+  if (verdict === scene.truth.verdict && isEdge(scene)) return `on the edge, ${least(scene, verdict)}`;
   if (verdict.lost) return `contact lost (${wheel(scene, verdict.lost)})`;
   return `contact kept, ${least(scene, verdict)}`;
 }
 
+/** Whether two first losses, or lift-offs, are not the same one. */
+const differ = (a, b, dt) =>
+  !a !== !b || (Boolean(a) && (a.wheel !== b.wheel || Math.abs(a.t - b.t) > 2 * dt));
+
 /** Whether a run tells another story than the exact motion. */
-export function disagrees({ run, truth, dt }) {
-  const [a, b] = [run.verdict.lost, truth.verdict.lost];
-  if (!a !== !b) return true;
-  return Boolean(a) && (a.wheel !== b.wheel || Math.abs(a.t - b.t) > 2 * dt);
+export function disagrees(scene) {
+  const { run, truth, dt, data } = scene;
+  if (isEdge(scene) && Math.abs(run.verdict.least) < 2 * data.edge) return false;
+  return differ(run.verdict.lost, truth.verdict.lost, dt);
 }
 
+/** How much the fastest growing mode grows in a step. */
+function growing({ growths }) {
+  const most = Math.max(...growths);
+  return `|R|\u00a0=\u00a0${most < 10 ? most.toFixed(5) : show(most, 4)}`;
+}
+
+/** What is to be said first of a scheme that fails; undefined if it does not. */
+function failure(scene, exact) {
+  if (!scene.run) return `${method(scene)} cannot take this step. Exactly: ${exact}.`;
+  if (!scene.stable)
+    return `Unstable: ${method(scene)} makes a mode grow by ${growing(scene)} every step. Exactly: ${exact}.`;
+}
+
+const onEdge = (scene) => ({
+  tone: "edge",
+  headline: `On the edge: ${least(scene, scene.truth.verdict)}. The wheel just touches the ground.`,
+});
+
 function describeRun(scene) {
-  const { run, truth, stable, scheme, dt, growths } = scene,
-    exact = truth.verdict;
-  const method = `${scheme.name} at ${equals("Δt", 1000 * dt, "ms")}`,
+  const { run, truth, stable, data } = scene,
+    exact = truth.verdict,
+    failed = failure(scene, outcome(scene, exact)),
     details = [];
-  const most = Math.max(...growths),
-    R = `|R|\u00a0=\u00a0${most < 10 ? most.toFixed(5) : show(most, 4)}`;
   let tone, headline;
-  if (!run) {
-    [tone, headline] = ["doubt", `${method} cannot take this step. Exactly: ${outcome(scene, exact)}.`];
-    return { tone, headline, details: details.concat(remarks(scene, truth)) };
-  }
-  if (!stable) {
-    tone = "doubt";
-    headline = `Unstable: ${method} makes a mode grow by ${R} every step. Exactly: ${outcome(scene, exact)}.`;
+  if (failed) {
+    [tone, headline] = ["doubt", failed];
   } else if (disagrees(scene)) {
     tone = "doubt";
-    const [a, b] = [run.verdict.lost, exact.lost];
-    const fault = !a
+    const fault = !run.verdict.lost
       ? "misses a loss of contact"
-      : b
+      : exact.lost
         ? "finds another loss of contact"
         : "finds a loss of contact that is none";
     headline = `This run ${fault}. Exactly: ${outcome(scene, exact)}.`;
     details.push(`The run says: ${outcome(scene, run.verdict)}.`);
+  } else if (isEdge(scene)) {
+    ({ tone, headline } = onEdge(scene));
   } else {
     tone = run.verdict.lost ? "lost" : "kept";
     headline = `${capital(outcome(scene, run.verdict))}.`;
@@ -66,10 +90,10 @@ function describeRun(scene) {
   if (stable) {
     if (run.verdict.lost && tone === "lost")
       details.push(`${capital(least(scene, run.verdict))}, in a model whose ground can pull.`);
-    details.push(`${method} is stable: the largest ${R}.`);
+    details.push(`${method(scene)} is stable: the largest ${growing(scene)}.`);
     details.push(
-      run.error < CLOSE
-        ? `Its forces are exact to ${unit(CLOSE, "N", 1)}.`
+      run.error < data.close
+        ? `Its forces are exact to ${unit(data.close, "N", 1)}.`
         : `Its forces differ by up to ${unit(run.error, "N", 2)} from the exact ones.`,
     );
   }
@@ -96,32 +120,144 @@ function remarks({ data, settings }, { beyond }) {
 }
 
 function describeFlight(scene) {
-  const { flight } = scene,
-    { events, airtime } = flight;
-  if (!events.length) {
-    return {
-      tone: "kept",
-      headline: "No wheel leaves the ground: flying and linear are the same.",
-      details: remarks(scene, flight),
-    };
+  const { flight, exactFlight, dt } = scene,
+    [first] = flight.events,
+    [exactly] = exactFlight.events;
+  const story = ({ events }) =>
+    events.length
+      ? `off the ground: wheels lift ${times(events)}, first the ${wheel(scene, events[0])}`
+      : "no wheel leaves the ground";
+  const failed = failure(scene, isEdge(scene) ? outcome(scene, scene.truth.verdict) : story(exactFlight)),
+    details = first ? airOf(scene) : [];
+  let tone, headline;
+  if (failed) {
+    [tone, headline] = ["doubt", failed];
+  } else if (isEdge(scene) && !(first && exactly && differ(first, exactly, dt))) {
+    ({ tone, headline } = onEdge(scene));
+  } else if (differ(first, exactly, dt) || times(flight.events) !== times(exactFlight.events)) {
+    tone = "doubt";
+    const fault = !first
+      ? "misses a lift-off"
+      : exactly
+        ? "leaves the ground otherwise"
+        : "finds a lift-off that is none";
+    headline = `This flight ${fault}. Exactly: ${story(exactFlight)}.`;
+    details.unshift(`The flight says: ${story(flight)}.`);
+  } else if (!first) {
+    [tone, headline] = ["kept", "No wheel leaves the ground: flying and linear are the same."];
+  } else {
+    [tone, headline] = ["lost", `${capital(story(flight))}.`];
   }
-  const first = events[0],
-    landings = events.filter(({ kind }) => kind === "landing");
-  const times = [0, 1]
-    .filter((i) => airtime[i] > 0)
-    .map((i) => `${WHEEL[i]} ${unit(1000 * airtime[i], "ms")}`);
-  const hardest = landings.reduce((most, event) => (event.force > most.force ? event : most), { force: 0 });
-  const details = [`In the air: ${times.join(", ")} of ${unit(1000 * scene.end, "ms")}.`];
-  if (hardest.force > CLOSE)
-    details.push(`Hardest landing: ${wheel(scene, hardest)}, with ${unit(hardest.force, "N")} at once.`);
-  details.push(`Steps of ${unit(1000 * flight.dt, "ms")}, parted where a wheel leaves or lands.`);
+  return { tone, headline, details: details.concat(remarks(scene, flight)) };
+}
+
+/** How often wheels lift. */
+function times(events) {
   const count = events.filter(({ kind }) => kind === "lift-off").length;
-  const how = ["once", "twice"][count - 1] ?? `${count} times`;
-  return {
-    tone: "lost",
-    headline: `Off the ground ${how}, first the ${wheel(scene, first)}.`,
-    details: details.concat(remarks(scene, flight)),
+  return ["once", "twice"][count - 1] ?? `${count} times`;
+}
+
+/** What there is to know of a flight: airtimes, beside the exact ones if they differ, and landings. */
+function airOf(scene) {
+  const { flight, exactFlight, data } = scene;
+  const list = (airtime) =>
+    [0, 1]
+      .filter((i) => airtime[i] > 0)
+      .map((i) => `${WHEEL[i]} ${unit(1000 * airtime[i], "ms")}`)
+      .join(", ");
+  const own = list(flight.airtime),
+    exact = list(exactFlight.airtime);
+  const details = [
+    `In the air: ${own}${own === exact ? "" : ` (exactly: ${exact || "no wheel"})`} of ${unit(1000 * scene.end, "ms")}.`,
+  ];
+  const landings = flight.events.filter(({ kind }) => kind === "landing"),
+    hardest = landings.reduce((most, event) => (event.force > most.force ? event : most), { force: 0 });
+  if (hardest.force > data.close)
+    details.push(`Hardest landing: ${wheel(scene, hardest)}, with ${unit(hardest.force, "N")} at once.`);
+  details.push(`By ${method(scene)}; a step in which a wheel leaves or lands is taken in two.`);
+  return details;
+}
+
+/** One robot of a race, up to a time: its name, what has become of it, and in which tone. */
+export function laneWords(lane, motion, t) {
+  const name = `${unit(lane.v, "m/s")}`,
+    off = [0, 1].filter((i) => airborne(lane, motion, t).some(([wheel]) => wheel === i)),
+    which = off.length > 1 ? "both wheels" : `${WHEEL[off[0]]} wheel`;
+  if (off.length)
+    return {
+      name,
+      words: `${which} ${motion === "flying" ? "left the ground" : "lost contact"}`,
+      tone: "alarm",
+    };
+  if (t < lane.end * (1 - 1e-9)) return { name, words: "" };
+  return { name, words: "both wheels stayed on the ground", tone: "region" };
+}
+
+/** Which robots kept their wheels down: as far as they have come, at the moment shown. */
+function describeRace({ lanes }, motion, now) {
+  const arrived = lanes.filter((lane) => !now || now.t >= lane.end * (1 - 1e-9)),
+    lost = arrived.filter((lane) => airborne(lane, motion, lane.end).length),
+    kept = arrived.filter((lane) => !lost.includes(lane));
+  const speeds = (some) => {
+    const names = some.map(({ v }) => show(v));
+    return `${names.length > 1 ? `${names.slice(0, -1).join(", ")} and ` : ""}${names.at(-1)}\u00a0m/s`;
   };
+  const parts = [];
+  if (kept.length) parts.push(`At ${speeds(kept)} both wheels stay on the ground`);
+  if (lost.length) parts.push(`${parts.length ? "at" : "At"} ${speeds(lost)} a wheel leaves it`);
+  if (!kept.length && lost.length) parts[0] = `At ${speeds(lost)} a wheel leaves the ground`;
+  if (arrived.length < lanes.length)
+    return {
+      tone: "open",
+      headline: parts.length
+        ? `${parts.join("; ")}.`
+        : "At which of these speeds does a wheel leave the ground?",
+      details: [],
+    };
+  return {
+    tone: !lost.length ? "kept" : kept.length ? "open" : "lost",
+    headline: `${parts.join("; ")}.`,
+    details: [],
+  };
+}
+
+/** What the faint robot is. */
+export const ghostWords = (motion, pinned) =>
+  pinned
+    ? "faint: the pinned run"
+    : motion === "flying"
+      ? "faint: wheels held down (linear)"
+      : "faint: wheels free to lift";
+
+/** Two lines that tell what solid, faint, dots, ticks and bands are. */
+export function keyOf({ data, lanes, flight, run }, motion, pinned) {
+  if (data.chart) return [];
+  if (lanes)
+    return [
+      "One road, one clock: it goes slower while the fast ones cross, and says how much.",
+      "Thick lines under the road: where a wheel was off the ground, rear wheel below, front wheel above.",
+    ];
+  const flying = motion === "flying" || !run,
+    solid = flying
+      ? "Solid: wheels are free to leave the ground"
+      : "Solid: the linear model, whose ground also pulls a wheel down";
+  const faint = pinned
+    ? "faint and grey: the pinned run, at the same place"
+    : flight.events.length
+      ? flying
+        ? "faint: the linear model, whose ground also pulls a wheel down"
+        : "faint: the same robot, its wheels free to leave the ground"
+      : "no wheel lifts, so that flying is the same";
+  const pale = data.compact
+    ? ""
+    : ` Broad and pale: the ${flying ? "linear forces, exact" : "exact forces"}.`;
+  const dots =
+    "Full dots, ticks above the slider: speeds where the verdict turns; open dots, ticks below: the speeds asked for; bands: contact kept or lost, by the linear model.";
+  const air =
+    flying && !data.compact
+      ? " Among the forces: open dots where a wheel lifts, full ones where it lands; bands of half the height while it is in the air, rear wheel above, front below."
+      : "";
+  return [`${solid}; ${faint}.${pale}`, dots + air];
 }
 
 /** Numbers in three digits, or in as many as tell each from the next. */
@@ -168,15 +304,23 @@ export function describeChart({ data, curve: { critical, kept }, settings: { hei
 }
 
 /** What a run is, and what was said of it: for one that is kept to compare others with. */
-export function describePinned({ v, k, c, dt }, scheme, motion, headline) {
-  const how = motion === "flying" ? "flying" : `${scheme.name}, ${equals("Δt", 1000 * dt, "ms")}`;
+export function describePinned({ settings: { v, k, c }, scheme, dt }, motion, headline) {
+  const how = `${motion === "flying" ? "flying, " : ""}${method({ scheme, dt })}`;
   const robot = `${equals("k", k, "N/m")}, ${equals("c", c, "N\u00a0s/m")}`;
   return `Pinned, in grey at the same X: ${equals("v", v, "m/s")}, ${robot}, ${how}. ${headline}`;
 }
 
-/** The moment shown, for the clock. */
-export function describeMoment(now, motion) {
-  const { t, X } = now,
-    N = now[motion].N;
-  return `t\u00a0=\u00a0${show(t)}\u00a0s   X\u00a0=\u00a0${show(X)}\u00a0m   N₁\u00a0=\u00a0${show(N[0])}\u00a0N   N₂\u00a0=\u00a0${show(N[1])}\u00a0N`;
+/** "slowed 64 ×": how a clock goes. */
+export function paceWords(slower) {
+  if (slower > 1.05) return `slowed ${show(slower, 2)}\u00a0×`;
+  return slower < 0.95 ? `${show(1 / slower, 2)}\u00a0× faster` : "in real time";
+}
+
+/** The moment shown, for the clock; `more` is how fast the clock goes, or what happens there. */
+export function describeMoment(now, motion, more = "") {
+  const { t, X, lanes } = now,
+    N = now[motion].N,
+    time = `t\u00a0=\u00a0${show(t)}\u00a0s`;
+  if (lanes) return `${time}   ${more}`;
+  return `${time}   X\u00a0=\u00a0${show(X)}\u00a0m   N₁\u00a0=\u00a0${show(N[0])}\u00a0N   N₂\u00a0=\u00a0${show(N[1])}\u00a0N${more && `   ${more}`}`;
 }
