@@ -1,4 +1,4 @@
-# make book | pdf | quick | test | mutants | lab | notebooks | bench | requirements | clean
+# make book | pdf | quick | test | mutants | lab | notebooks | students | solutions | bench | requirements | clean
 # Needs Python 3.11, 3.12, 3.13 or 3.14 and nothing else.
 
 PYTHON ?= $(firstword $(foreach name,python3 python3.14 python3.13 python3.12 python3.11,$(shell \
@@ -11,12 +11,15 @@ BUILD := PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
+# One more than there are cores, up to five: tests wait for browsers and servers.
+WORKERS := $(shell expr $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)
+BY_FILE := --numprocesses $(WORKERS) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
 # Its import takes every process a second, and only notebooks need it.
 WITHOUT_NBVAL := -p no:nbval --override-ini addopts="--doctest-modules --import-mode=importlib -q"
 # Notebooks and tests run side by side: threads for small matrices would only stand in their way.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: book pdf printer readings lint quick test mutants lab notebooks bench twice requirements clean
+.PHONY: book pdf printer readings lint quick test mutants lab notebooks students solutions bench twice requirements clean
 
 book: $(VENV) readings
 	@echo "Building the book (two minutes) ..."
@@ -35,9 +38,11 @@ lint: $(VENV)
 quick: lint
 	$(PYTEST) --dist worksteal -m "not slow" $(WITHOUT_NBVAL) tests/unit suspension
 
-# Before a change is handed in: everything.
-test: book lint
-	$(PYTEST) --dist loadfile --no-loadscope-reorder
+# Before a change is handed in: everything. The book takes what nbval has executed a moment before.
+test: readings lint
+	$(BIN)/python -m pytest $(BY_FILE) -m "not built" notebooks tests suspension
+	@$(MAKE) --no-print-directory book
+	$(BIN)/python -m pytest $(BY_FILE) -m built tests/book tests/browser tests/unit/test_explorer_page.py
 
 # Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
 # MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.
@@ -62,7 +67,12 @@ printer: $(VENV)
 # Executes every notebook and stores what the tests compare, nothing else.
 notebooks: $(VENV)
 	@echo "Executing the notebooks (a minute) ..."
-	@$(BIN)/python notebooks/normalise.py notebooks/*.ipynb
+	@$(BIN)/python notebooks/normalise.py notebooks/*.ipynb notebooks/workbook/*.ipynb
+
+# The notebooks to hand out: without solutions and answers, and the lecturer's copy, its blanks filled.
+students solutions: $(VENV)
+	@echo "Packing the notebooks (a moment) ..."
+	@$(BIN)/python book/_ext/students.py $@
 
 # Speed, beside what one would otherwise use; BENCH=--book times the book and its tests as well.
 bench: $(PEERS)

@@ -36,6 +36,8 @@ article.page:first-of-type { break-before: auto; }
 .sheets { break-after: page; }
 .book-title { font-size: 1.8em; font-weight: bold; margin: 0 0 1em; }
 """
+# To see where every part begins nothing need be painted.
+UNSEEN = "main svg, main img, main .katex { visibility: hidden; }"
 
 
 def page_names():
@@ -96,7 +98,7 @@ def printed_address(address, page, names):
     return f"#{prefix}--{anchor}" if anchor else f"#{prefix}"
 
 
-def joined(title, articles, numbers):
+def joined(title, articles, numbers, style):
     """One page that holds all, behind a list of contents if there is more than one."""
     lines = []
     for body in articles if len(articles) > 1 else []:
@@ -112,7 +114,7 @@ def joined(title, articles, numbers):
     static = (HTML / "_static").as_uri()
     return f"""<!doctype html><html lang="en" data-theme="light"><head><meta charset="utf-8">
 <title>{title}</title><link rel="stylesheet" href="{static}/book.css">
-<link rel="stylesheet" href="{static}/fonts.css"><style>{STYLE}</style></head>
+<link rel="stylesheet" href="{static}/fonts.css"><style>{style}</style></head>
 <body><main class="bd-main"><div class="bd-content"><div class="bd-article-container">
 {contents if lines else ""}{"".join(map(str, articles))}</div></div></main></body></html>"""
 
@@ -157,7 +159,8 @@ def print_pages(browser, names, path):
     with TemporaryDirectory() as folder:
         source = Path(folder, "book.html")
         for final in (False, True) if len(names) > 1 else (True,):
-            source.write_text(joined(title, articles, numbers), encoding="utf-8")
+            style = STYLE if final else STYLE + UNSEEN
+            source.write_text(joined(title, articles, numbers, style), encoding="utf-8")
             tab = browser.new_page()
             tab.goto(source.as_uri(), wait_until="networkidle")
             tab.evaluate("document.fonts.ready")

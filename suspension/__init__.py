@@ -25,8 +25,9 @@ What goes beyond:
 - `travel`, `accuracy`, `small_angle`, `branches`, `uncertainty`: how far the answers can be trusted
 - `measured`: which verdicts such a spring leaves standing
 
-And what makes a book of it: `figures`, `animation`, `report` and `explorer`. These draw and write,
-and nothing above imports them; `explore`, a picture with sliders, is loaded when it is first used.
+And what makes a book of it: `figures`, `animation`, `report`, `explorer`, and `practice`, which
+checks what a student writes in the workbook. These draw and write, and nothing above imports them;
+`explore`, a picture with sliders, is loaded when it is first used.
 
 >>> import suspension
 >>> robot = suspension.Robot(k1=800, k2=800)

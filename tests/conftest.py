@@ -7,6 +7,14 @@ import pytest
 from helpers import ROOT, find_chromium, serve_files, start_chromium
 
 
+@pytest.hookimpl(tryfirst=True)  # before they are chosen by their marks
+def pytest_collection_modifyitems(items):
+    """Mark the tests that need the built book, or what comes with it for browsers."""
+    for item in items:
+        if {"book", "browser"} & set(getattr(item, "fixturenames", ())):
+            item.add_marker("built")
+
+
 @pytest.fixture(scope="session")
 def book():
     """Folder of the built book: that of ``make book``, or the one that BOOK_HTML names."""

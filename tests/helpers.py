@@ -1,17 +1,22 @@
 """What several tests share, and the explorer's benchmark: where things are, a server, a browser."""
 
+import os
 import re
 import shutil
 import subprocess
+import sys
+import sysconfig
 import threading
+import venv
 import warnings
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import numpy as np
 import yaml
+from bs4 import BeautifulSoup
 
 ROOT = Path(__file__).resolve().parents[1]
 AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
@@ -40,6 +45,12 @@ PAGES = [
     re.sub(r"\.(md|ipynb)$", "", page)
     for page in files_of(yaml.safe_load((ROOT / "_toc.yml").read_text(encoding="utf-8")))
 ]
+
+
+@cache
+def parse(path):
+    """A page of the built book, taken apart; it takes a second or two, so once."""
+    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
 
 
 class Quantity:
@@ -163,6 +174,33 @@ def start_chromium(path):
             yield browser
         finally:
             browser.close()
+
+
+def run_python(python, *arguments, cwd, **environment):
+    """What a Python prints; an error is shown as it came."""
+    done = subprocess.run(
+        [python, *arguments],
+        cwd=cwd,
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def environment_with(wheel, folder):
+    """The interpreter of a new environment with a wheel; the other libraries are borrowed."""
+    venv.create(folder, with_pip=False)
+    python = folder / "bin" / "python"
+    install = ["-m", "pip", "--python", python, "install", "--no-deps", "--quiet", wheel]
+    run_python(sys.executable, *install, cwd=folder)
+    ask = "import sysconfig; print(sysconfig.get_path('purelib'))"
+    site = run_python(python, "-c", ask, cwd=folder)
+    # The folder's own .pth files are not followed, so the checkout stays out of sight.
+    pointer = Path(site.strip(), "borrowed.pth")
+    pointer.write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    return python
 
 
 def violations(tab, *rules, within="html"):

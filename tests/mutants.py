@@ -94,6 +94,8 @@ EQUIVALENT = [
     ("least_force", "2 + int(swings)", "2", DENSITY),
     ("least_force", "2 + int(7 *", "2", DENSITY),
     ("least_force", "np.arange(-66, 133)", "30", DENSITY),
+    ("choice", "MAX_", "", GUARD),
+    ("choice", "cost > most", "cost > most", GUARD),
     ("contact", "ends = {t[j - 1]", "1", "the force is positive at every earlier sample as well"),
     ("contact", "return ends[s] if", "", "only the sign of a roundoff may be another one"),
     ("critical", "ripples = 1 +", "1", DENSITY),

@@ -1,14 +1,16 @@
 """Sphinx extension: a downloaded notebook says what it needs, and the book has it.
 
-The book carries the package that its notebooks import, as a wheel, with the data it was built from.
+The book carries the package that its notebooks import, as a wheel, with the data it was built from,
+and the students' copy of its notebooks.
 """
 
 import os
-import subprocess
-import sys
+import shutil
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import nbformat
+import students
 from sphinx.errors import ExtensionError
 
 HEAD = """This notebook is a page of *{title}*. It imports the book's package, `suspension`.
@@ -35,14 +37,10 @@ def head(title, wheel, address="", repository=""):
 
 def build_wheel(app):
     """Put the package into the book; its path there."""
-    static = Path(app.outdir, "_static")
-    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(static)]
-    run = subprocess.run(
-        command, cwd=app.srcdir, capture_output=True, encoding="utf-8", errors="replace"
-    )
-    if run.returncode:
-        raise ExtensionError(f"the package could not be made into a wheel:\n{run.stderr}")
-    (wheel,) = static.glob("suspension-*.whl")
+    try:
+        wheel = students.make_wheel(Path(app.outdir, "_static"), app.srcdir)
+    except RuntimeError as error:
+        raise ExtensionError(str(error)) from None
     return f"_static/{wheel.name}"
 
 
@@ -56,6 +54,9 @@ def say_what_is_needed(app, exception):
         notebook = nbformat.read(path, as_version=4)
         notebook.cells.insert(0, nbformat.v4.new_markdown_cell(text, id="needs-suspension"))
         nbformat.write(notebook, path)
+    with TemporaryDirectory() as folder:
+        packed = students.hand_out("students", folder, Path(app.srcdir))
+        shutil.copy(packed, Path(app.outdir, "_static"))
 
 
 def setup(app):

@@ -50,6 +50,13 @@ def code_cells(notebook):
     return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
+def place(path, common, build):
+    """Where the outputs of a notebook are kept, by a number that changes with its code."""
+    code = "\0".join(cell.source for cell in code_cells(nbformat.read(path, as_version=4)))
+    number = hashlib.sha256(f"{common}\0{code}".encode()).hexdigest()
+    return build / ".notebooks" / f"{path.stem}-{number[:16]}.json"
+
+
 def run_all(app, env, pages):
     """Run those notebooks whose outputs are not known; drop outputs that are no longer of use."""
     if not app.config.run_notebooks:
@@ -57,15 +64,14 @@ def run_all(app, env, pages):
     common = fingerprint(Path(app.srcdir))
     env.executed = {}
     missing = []
-    folder = Path(app.outdir).parent / ".notebooks"
+    build = Path(app.outdir).parent
     for page in sorted(env.found_docs):
         path = Path(env.doc2path(page))
         if path.suffix == ".ipynb":
-            code = "\0".join(cell.source for cell in code_cells(nbformat.read(path, as_version=4)))
-            number = hashlib.sha256(f"{common}\0{code}".encode()).hexdigest()
-            env.executed[page] = folder / f"{path.stem}-{number[:16]}.json"
+            env.executed[page] = place(path, common, build)
             if not env.executed[page].exists():
                 missing.append((path, env.executed[page], app.config.nb_execution_timeout))
+    folder = build / ".notebooks"
     folder.mkdir(parents=True, exist_ok=True)
     for old in set(folder.iterdir()) - set(env.executed.values()):
         old.unlink()

@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 
 from docutils import nodes
-from myst_nb.sphinx_ import NbMetadataCollector
+from myst_nb.sphinx_ import HideCodeCellNode, NbMetadataCollector
 from results import find
 from sphinx.addnodes import pending_xref
 from sphinx.transforms.post_transforms import SphinxPostTransform
@@ -28,10 +28,13 @@ FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
+WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
+WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
     "prediction.js": prediction_script,
     "explorer.css": page_style,
+    "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
 }
 
 
@@ -56,6 +59,8 @@ def add_files(app, page, template, context, doctree):
     for mark, script in ((EXPLORER, "explorer.js"), (PREDICTION, "prediction.js")):
         if mark in html:
             app.add_js_file(script, loading_method="defer")
+    if WIDE in html:
+        app.add_css_file("wide.css")
 
 
 def keep_pages(app, page, source):
@@ -128,9 +133,31 @@ class ExplorerLinks(SphinxPostTransform):
         return None, None
 
 
+class ExplorerCells(SphinxPostTransform):
+    """The cells of explorers: their folded code stands below, for the picture to be in sight.
+
+    Their output has a class of its own, for the style sheet.
+    """
+
+    default_priority = 200  # once MyST-NB has folded it
+    formats = ("html",)
+
+    def run(self, **kwargs):
+        """Visit the cells of one page."""
+        for box in self.document.findall(nodes.raw):
+            if BOX.search(box.astext()):
+                box["classes"].append("se-output")
+        for fold in list(self.document.findall(HideCodeCellNode)):
+            cell = fold.parent
+            if any(EXPLORER in node.astext() for node in cell.findall(nodes.raw)):
+                cell.remove(fold)
+                cell.append(fold)
+
+
 def setup(app):
     """Connect to Sphinx."""
     app.add_directive("explorer", ExplorerDirective)
+    app.add_post_transform(ExplorerCells)
     app.add_post_transform(ExplorerLinks)
     app.connect("builder-inited", write_files)
     app.connect("source-read", keep_pages, priority=110)  # once they have been run

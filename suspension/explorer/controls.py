@@ -40,7 +40,8 @@ def native(explorer):
 
     A script fills in the values and moves them; without it they are not shown. So are the buttons
     of the author's own presets. JupyterLab gets them, too, but for the ranges of speed and step:
-    its style hides them, for `sliders.row` stands above the explorer, and keeps their numbers.
+    its style hides them, for `sliders.row` stands above the explorer, and keeps their numbers and,
+    as a strip, the speeds at which contact is kept and lost.
     """
     rows = []
     for control in offered(explorer):

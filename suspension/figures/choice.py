@@ -219,6 +219,7 @@ def plot_rides(v, curves, asked, force, air, load, axes):
     axes[0].axhline(load, color="0.3", lw=1)
     for ax in axes:
         speed_axis(ax, v)
+        ax.set_xlim(0.9 * v[0], 1.1 * v[-1])
     axes[0].set(yscale="log", ylabel="force, root mean square (N)")
     axes[1].set(ylabel="rear wheel in the air (%)", ylim=(-2, None))
     return axes

@@ -136,22 +136,23 @@ def geometry_table(asked, small, full):
     small, full : suspension.sweep.Drive
         On a ground that only pushes.
     """
-    return table(
-        [
-            {
-                "v (m/s)": f"{v:g}",
-                "pitch taken": name,
+
+    def cells(i):
+        for run in (small, full):
+            yield {
                 "contact lost at X (m)": "–" if run.kept[i] else fixed(run.lost[i], 4),
                 "largest pitch (degrees)": fixed(np.degrees(run.pitch[i]), 1),
-                "in the air: rear, front (ms)": ", ".join(
-                    fixed(1000 * t, 1) for t in run.airtime[:, i]
+                "in the air, rear and front (ms)": " and ".join(
+                    fixed(1e3 * t, 1) for t in run.airtime[:, i]
                 ),
-                "largest acceleration (m/s²)": number(run.acceleration[i]),
+                "acceleration (m/s²)": number(run.acceleration[i]),
             }
-            for i, v in enumerate(asked)
-            for name, run in (("for small", small), ("as it is", full))
-        ]
-    )
+
+    rows = []
+    for i, v in enumerate(asked):
+        one, other = cells(i)
+        rows.append({"v (m/s)": f"{v:g}", **{name: f"{one[name]}, {other[name]}" for name in one}})
+    return f"{table(rows)}\n\nIn each cell: with a small pitch, with the full geometry."
 
 
 def geometry_sentence(asked, small, full):

@@ -66,11 +66,10 @@ def beaten(robot, better):
     """
     present = f"The present suspension, {_named(robot.k1, robot.c1)},"
     if not len(better):
-        return f"{present} is **on the front**: none of the map is better in all three."
-    beat = "beats" if len(better) == 1 else "beat"
+        return f"**No other.** {present} is on the front: none of the map is better in all three."
     return (
-        f"{present} is **not on the front**: {count(len(better), 'suspension')} of the map {beat} "
-        f"it in all three, for example {_named(*better[0])}."
+        f"**{count(len(better), 'suspension').capitalize()}.** {present} is not on the front: "
+        f"{_named(*better[0])}, for example, are better in all three."
     )
 
 

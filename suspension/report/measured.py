@@ -35,7 +35,6 @@ __all__ = [
     "limit_table",
     "margins_caption",
     "order_caption",
-    "order_sentence",
     "power_table",
     "run_caption",
     "sign_table",
@@ -49,7 +48,6 @@ __all__ = [
 
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
 CLOSE = 1e-3  # critical speeds of different runs agree within this part
-KINK = 2.6  # an order below this is that of a kink, with its scatter
 OPEN, SIGNED = "open", {True: "lost", False: "kept"}
 
 
@@ -160,24 +158,23 @@ def geometry_sentence(asked, runs, full):
 def aftermath_table(asked, runs, delta_max):
     """What a ground that only pushes does to the robot where some law loses contact."""
     rows = [
-        {
-            "v (m/s)": f"{v:g}",
-            "law": name,
-            "acceleration (m/s²)": number(run.acceleration[i]),
-            r"compression, of $\delta_{\max{}}$": fixed(run.compression[i] / delta_max, 2),
-            "in the air: rear, front (ms)": ", ".join(
-                fixed(1000 * t, 1) if t else "–" for t in run.airtime[:, i]
-            ),
-            "flights": str(run.flights[:, i].sum()),
-        }
+        {"v (m/s)": f"{v:g}", **{name: _felt(run, i, delta_max) for name, run in runs.items()}}
         for i, v in enumerate(asked)
         if not all(run.kept[i] for run in runs.values())
-        for name, run in runs.items()
     ]
     if not rows:
         return "No law loses contact at an asked speed."
-    note = "Largest values of the whole way, and what both wheels spend in the air."
+    note = (
+        "The largest acceleration of the body; the largest compression of a spring, in units of "
+        r"$\delta_{\max{}}$; and how long rear and front wheel are in the air, in ms."
+    )
     return f"{table(rows)}\n\n{note}"
+
+
+def _felt(run, i, delta_max):
+    acceleration = f"{number(run.acceleration[i])}{SPACE}m/s²"
+    air = " and ".join(fixed(1000 * t, 1) if t else "0" for t in run.airtime[:, i])
+    return f"{acceleration}; {fixed(run.compression[i] / delta_max, 2)}; {air}"
 
 
 def margins_caption(critical):
@@ -291,26 +288,12 @@ def limit_table(eigenvalues, dt):
 
 def order_caption(v, orders):
     """Caption of the error of RK4 on each law, with the observed orders."""
-    each = join((f"{name} {fixed(order, 1)}" for name, order in orders.items()), none="none")
+    each = join((f"{fixed(order, 1)} ({name})" for name, order in orders.items()), none="none")
     return Caption(
         f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside a run of DOP853 "
-        "with steps that are short at every kink.",
+        f"with steps that are short at every kink. Observed orders: {each}.",
         f"Error against time step on logarithmic axes; observed slopes: {each}.",
     )
-
-
-def order_sentence(orders):
-    """What the stop does to the order; `orders` by law, the stiffest stop last."""
-    if not orders:
-        return "The errors are too small to show an order."
-    each = join(f"{fixed(order, 1)} ({name})" for name, order in orders.items())
-    what = "With these steps the kink does not show."
-    if list(orders.values())[-1] < KINK:
-        what = (
-            "A stop is a kink of the force, and [two is what a kink leaves]"
-            "(07-flight.ipynb#one-bad-step)."
-        )
-    return f"Observed orders: {each}. {what}"
 
 
 # --- how well it is known -------------------------------------------------------------------------

@@ -70,12 +70,12 @@ def flights(names, speeds, linear, found, longer):
         if not flown.any():
             below = percent(1 - 0.05 ** (1 / len(flown)))
             lines.append(
-                f"“{name}” flew on none of {len(flown)} roads. With 95{SPACE}% confidence it "
+                f"**“{name}” flew on none of {len(flown)} roads.** With 95{SPACE}% confidence it "
                 f"flies on less than {below} of such roads; so many roads say no more."
             )
             continue
         flies = flown.any(axis=0)
-        line = f"“{name}” flies at {_speeds(speeds, flies)}"
+        line = f"**“{name}” flies at {_speeds(speeds, flies)}**"
         if flown.all(axis=0).any():
             line += f", on every road at {_speeds(speeds, flown.all(axis=0))}"
         ratio = found.force[0, :, i].mean(axis=0)[flies] / linear[i][flies]

@@ -127,14 +127,12 @@ def mass_table(speeds, masses, runs, flights):
                 {
                     "v (m/s)": f"{v:g}",
                     "wheel pair (g)": f"{1e3 * mass:g}",
-                    "contact": f"lost by the {WHEEL[first[0]]} wheel at X = {fixed(first[1], 3)} m"
-                    if first
-                    else "kept",
+                    "contact": f"{WHEEL[first[0]]}, {fixed(first[1], 3)}" if first else "kept",
                     **air(run),
                     "largest force (N)": fixed(run.N.max(), 1),
                 }
             )
-    return table(rows)
+    return f"{table(rows)}\n\n*Contact*: kept, or the wheel that loses it first and the place X, m."
 
 
 def heaviest_caption(asked):

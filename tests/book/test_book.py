@@ -5,15 +5,9 @@ from functools import cache
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from bs4 import BeautifulSoup
-from helpers import PAGES
+from helpers import PAGES, parse
 
 each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
-
-
-@cache
-def parse(path):
-    return BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
 
 
 @cache

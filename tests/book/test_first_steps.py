@@ -90,7 +90,7 @@ def test_lab_starts_as_root_and_in_the_folder_of_the_project():
 
 
 @pytest.mark.skipif(shutil.which("make") is None, reason="needs make")
-@pytest.mark.parametrize("target", ["book", "pdf", "notebooks"])
+@pytest.mark.parametrize("target", ["book", "pdf", "notebooks", "students", "solutions"])
 def test_make_says_what_it_does_in_a_line_a_step(target):
     output = run(["make", "--dry-run", "--always-make", target], ROOT)[1]
     steps = re.findall(r'^echo "(.*)"', output, re.MULTILINE)

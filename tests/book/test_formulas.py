@@ -5,15 +5,12 @@ import sys
 from xml.etree import ElementTree
 
 import pytest
-from bs4 import BeautifulSoup
 from docutils import nodes
 from docutils.frontend import get_default_settings
 from docutils.parsers.rst import Parser
 from docutils.utils import new_document
-from helpers import PAGES, ROOT
-
-sys.path.append(str(ROOT / "book" / "_ext"))
 from formulas import KeepPunctuation
+from helpers import PAGES, ROOT, parse
 
 # How many children an element of MathML Core has; those that are not named have any number.
 CHILDREN = {
@@ -80,7 +77,7 @@ def wrong(math):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_formulas_are_valid_mathml(book, page):
-    soup = BeautifulSoup((book / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+    soup = parse(book / f"{page}.html")
     for math in soup.select("math"):
         assert not wrong(ElementTree.fromstring(str(math)))
 
@@ -117,7 +114,7 @@ def test_a_copied_formula_is_its_latex(browser, site):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_no_punctuation_is_doubled_by_keeping_it_together(book, page):
-    soup = BeautifulSoup((book / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+    soup = parse(book / f"{page}.html")
     for span in soup.select("article .together"):
         after = span.next_sibling
         last = span.contents[-1] if isinstance(span.contents[-1], str) else ""

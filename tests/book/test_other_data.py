@@ -155,7 +155,7 @@ PARTS = {
 
 
 @pytest.fixture(scope="module", params=PARTS, ids=lambda make: make.__name__)
-def book(request, tmp_path_factory):
+def other_book(request, tmp_path_factory):
     """A book that was computed with such data."""
     make = request.param
     folder = tmp_path_factory.mktemp(make.__name__)
@@ -182,23 +182,23 @@ def book(request, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def whole_book(book):
+def whole_book(other_book):
     """A book of which every part was computed."""
-    if len(book.pages) < len(NOTEBOOKS):
+    if len(other_book.pages) < len(NOTEBOOKS):
         pytest.skip("its robot is that of the book as it ships")
-    return book
+    return other_book
 
 
 # --- what it says -----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("what", NEVER)
-def test_no_page_shows(book, what):
+def test_no_page_shows(other_book, what):
     found = {
         page: [
             text[max(at.start() - 40, 0) : at.end() + 40] for at in re.finditer(NEVER[what], text)
         ]
-        for page, text in book.pages.items()
+        for page, text in other_book.pages.items()
     }
     assert not {page: places for page, places in found.items() if places}
 
@@ -242,33 +242,35 @@ def test_computed_sentences_link_to_what_is_there(whole_book):
             assert not anchor or anchor.startswith("explore") or anchor in known, target
 
 
-def test_no_page_calls_the_data_synthetic(book):
+def test_no_page_calls_the_data_synthetic(other_book):
     claims = re.compile(r"these data are synthetic|data are \*{0,2}synthetic", re.IGNORECASE)
-    assert not [page for page, text in book.pages.items() if claims.search(text)]
-    assert "not the synthetic data" in book.results["data-source"][0]
+    assert not [page for page, text in other_book.pages.items() if claims.search(text)]
+    assert "not the synthetic data" in other_book.results["data-source"][0]
 
 
-def test_a_spring_is_called_linear_if_its_readings_allow_it(book):
-    text = book.answer("1(iv)")
-    assert ("is justified" in text) == book.fit.linearity().linear
-    assert book.fit.linearity().linear == (book.name != "curved_spring")
+def test_a_spring_is_called_linear_if_its_readings_allow_it(other_book):
+    text = other_book.answer("1(iv)")
+    assert ("is justified" in text) == other_book.fit.linearity().linear
+    assert other_book.fit.linearity().linear == (other_book.name != "curved_spring")
 
 
-def test_three_displacements_and_readings_without_scatter_are_not_judged(book):
-    text = book.pages[FIT]
-    judged = book.name not in ("three_displacements", "perfect_line", "four_readings")
+def test_three_displacements_and_readings_without_scatter_are_not_judged(other_book):
+    text = other_book.pages[FIT]
+    judged = other_book.name not in ("three_displacements", "perfect_line", "four_readings")
     assert ("cubic term would be" in text) == judged
-    assert ("a cubic term cannot be tried" in text) == (book.name == "three_displacements")
-    assert ("goes through every reading" in text) == (book.name == "perfect_line")
+    assert ("a cubic term cannot be tried" in text) == (other_book.name == "three_displacements")
+    assert ("goes through every reading" in text) == (other_book.name == "perfect_line")
 
 
-def test_no_interval_is_believed_where_the_residuals_contradict_it(book):
+def test_no_interval_is_believed_where_the_residuals_contradict_it(other_book):
     quoted = ["answer-1-ii", "answer-1-iii", "answer-1-iv", "stiffness-table"]
-    if VERDICTS in book.pages:
+    if VERDICTS in other_book.pages:
         quoted += ["critical-table", "flip-note"]  # shown on the answers' page, too
-    warned = {name for name in quoted if "cannot be relied on" in book.results[name][0]}
-    assert warned == (set(quoted) if book.name == "both_ways" else set())
-    assert ("known to about" in book.pages[FIT]) == (book.name not in ("both_ways", "perfect_line"))
+    warned = {name for name in quoted if "cannot be relied on" in other_book.results[name][0]}
+    assert warned == (set(quoted) if other_book.name == "both_ways" else set())
+    assert ("known to about" in other_book.pages[FIT]) == (
+        other_book.name not in ("both_ways", "perfect_line")
+    )
 
 
 def test_the_verdicts_follow_the_spring(whole_book):

@@ -5,8 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from bs4 import BeautifulSoup
-from helpers import PAGES, ROOT
+from helpers import PAGES, ROOT, parse
 from pypdf import PdfReader
 from pypdfium2 import PdfDocument
 
@@ -105,7 +104,7 @@ def figures(reader):
 
 
 def test_the_answer_sheet_prints_the_five_figures_of_the_page(printed, book):
-    page = BeautifulSoup((book / "book/answers.html").read_text(encoding="utf-8"), "html.parser")
+    page = parse(book / "book/answers.html")
     shown = [image["aria-label"] for image in page.select("svg.if-wide, svg.wide")]
     assert len(shown) == 5
     assert sorted(figures(printed["answers"])) == sorted(shown)

@@ -7,7 +7,7 @@ import pkgutil
 from functools import cache
 
 import pytest
-from bs4 import BeautifulSoup
+from helpers import parse
 
 import suspension
 
@@ -21,7 +21,7 @@ MODULES = ["suspension"] + [
 
 @pytest.fixture(scope="module")
 def page(book):
-    return BeautifulSoup((book / PAGE).read_text(encoding="utf-8"), "html.parser").article
+    return parse(book / PAGE).article
 
 
 @pytest.fixture(scope="module")

@@ -1,35 +1,18 @@
 """The package as others get it: a wheel in a clean environment, far from this folder."""
 
-import os
 import re
 import shutil
-import subprocess
 import sys
-import sysconfig
-import venv
 import zipfile
 
 import numpy as np
 import pytest
-from helpers import ROOT
+from helpers import ROOT, environment_with, run_python
 from scipy import io
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```python\n(.*?)```\s+```text\n(.*?)```", README, re.DOTALL)
 WHERE = "import suspension; print(suspension.__file__)"
-
-
-def run(python, *arguments, cwd, **environment):
-    """What a Python prints; an error is shown as it came."""
-    done = subprocess.run(
-        [python, *arguments],
-        cwd=cwd,
-        env=os.environ | environment,
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -38,17 +21,9 @@ def python(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     options = ["--no-deps", "--no-build-isolation", "--quiet", "--disable-pip-version-check"]
     pip = ["-m", "pip", "wheel", *options, "--wheel-dir", folder, ROOT]
-    run(sys.executable, *pip, cwd=folder)
-    venv.create(folder / "env", with_pip=False)
-    python = folder / "env" / "bin" / "python"
+    run_python(sys.executable, *pip, cwd=folder)
     (wheel,) = folder.glob("*.whl")
-    install = ["-m", "pip", "--python", python, "install", "--no-deps", "--quiet", wheel]
-    run(sys.executable, *install, cwd=folder)
-    site = run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder)
-    # The folder's own .pth files are not followed, so the checkout stays out of sight.
-    pointer = folder / "env" / site.strip() / "borrowed.pth"
-    pointer.write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
-    return python
+    return environment_with(wheel, folder / "env")
 
 
 def test_the_readme_has_an_example_with_its_output():
@@ -56,12 +31,12 @@ def test_the_readme_has_an_example_with_its_output():
 
 
 def test_it_is_the_wheel_that_is_imported(python, tmp_path):
-    assert str(ROOT) not in run(python, "-c", WHERE, cwd=tmp_path)
+    assert str(ROOT) not in run_python(python, "-c", WHERE, cwd=tmp_path)
 
 
 def test_the_readmes_example_prints_what_the_readme_says(python, tmp_path):
     code, output = EXAMPLE.groups()
-    assert run(python, "-c", code, cwd=tmp_path) == output
+    assert run_python(python, "-c", code, cwd=tmp_path) == output
 
 
 def test_it_finds_its_data_its_style_and_its_page(python, tmp_path):
@@ -72,13 +47,13 @@ def test_it_finds_its_data_its_style_and_its_page(python, tmp_path):
         "plt.style.use('suspension.figures.report')\n"
         "print(round(the_robot().k1), len(Explorer._esm) > 9999, len(Explorer._css) > 999)\n"
     )
-    k, *found = run(python, "-c", code, cwd=tmp_path).split()
+    k, *found = run_python(python, "-c", code, cwd=tmp_path).split()
     assert 750 < int(k) < 850
     assert found == ["True", "True"]
 
 
 def test_it_says_what_it_reads(python, tmp_path):
-    assert "spring_data.csv" in run(python, "-m", "suspension.springs", cwd=tmp_path)
+    assert "spring_data.csv" in run_python(python, "-m", "suspension.springs", cwd=tmp_path)
 
 
 @pytest.fixture(scope="module")
@@ -100,16 +75,18 @@ def tree(tmp_path_factory):
 def lecturers(tree, tmp_path_factory):
     """The folder of a wheel that a lecturer has made, unpacked."""
     folder = tmp_path_factory.mktemp("lecturers")
-    run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder, cwd=tree)
+    run_python(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder, cwd=tree)
     (wheel,) = folder.glob("*.whl")
     zipfile.ZipFile(wheel).extractall(folder)
     return folder
 
 
 def test_a_wheel_carries_the_data_that_the_book_was_built_from(lecturers, tmp_path):
-    where = run(sys.executable, "-c", WHERE, cwd=tmp_path, PYTHONPATH=str(lecturers))
+    where = run_python(sys.executable, "-c", WHERE, cwd=tmp_path, PYTHONPATH=str(lecturers))
     assert where.startswith(str(lecturers))
-    says = run(sys.executable, "-m", "suspension.springs", cwd=tmp_path, PYTHONPATH=str(lecturers))
+    says = run_python(
+        sys.executable, "-m", "suspension.springs", cwd=tmp_path, PYTHONPATH=str(lecturers)
+    )
     assert "spring_data.mat" in says and "synthetic" not in says and "640.0 N/m" in says
 
 

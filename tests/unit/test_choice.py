@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import OptimizeResult
 
+from suspension import choice as module
 from suspension.choice import candidate, cheapest, demands, efficient, farthest, fitted_with
 from suspension.flight import fly
 from suspension.least_force import margin
@@ -91,6 +93,23 @@ def test_the_cheapest_change_reaches_what_is_asked_and_no_smaller_one_does(reser
         point = np.exp(0.98 * choice.distance * np.array([np.cos(angle), np.sin(angle)]))
         other = fitted_with(ROBOT, ROBOT.k1 * point[0], ROBOT.c1 * point[1])
         assert min(margin(other, BUMP, v) for v in ASKED) < reserve
+
+
+def test_the_search_begins_at_the_nearest_two_that_keep_contact(monkeypatch):
+    begun = []
+
+    def minimize(cost, first, **_):
+        begun.append(first)
+        return OptimizeResult(x=first)
+
+    monkeypatch.setattr(module, "minimize", minimize)
+    choice = cheapest(ROBOT, BUMP, ASKED, K[::2], C[::2])
+    grid = [fitted_with(ROBOT, k, c) for k in K[::2] for c in C[::2]]
+    kept = [other for other in grid if all(margin(other, BUMP, v) >= 0 for v in ASKED)]
+    ways = [np.log([other.k1 / ROBOT.k1, other.c1 / ROBOT.c1]) for other in kept]
+    nearest = sorted(ways, key=lambda way: np.hypot(*way))[:2]
+    np.testing.assert_allclose(begun - np.log([ROBOT.k1, ROBOT.c1]), nearest, atol=1e-12)
+    assert choice.distance == pytest.approx(np.hypot(*nearest[0]))
 
 
 def test_who_has_it_already_changes_nothing():

@@ -52,6 +52,7 @@ def opens(call):
     return is_open or is_method, said
 
 
+@pytest.mark.slow
 def test_every_file_is_opened_with_its_encoding():
     silent = [
         f"{path.relative_to(ROOT)}:{node.lineno}"

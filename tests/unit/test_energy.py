@@ -23,6 +23,7 @@ def test_what_the_road_puts_in_is_all_there(robot, v, wheel):
     assert min(e.kinetic.min(), e.potential.min()) > -1e-6 * scale
 
 
+@pytest.mark.slow
 def test_after_a_long_time_all_of_it_is_heat():
     flight = fly(ROBOT, BUMP, v=1.2, tfinal=4, samples=40001)
     e = energy(flight, ROBOT, BUMP)

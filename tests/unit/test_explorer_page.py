@@ -443,6 +443,7 @@ def test_the_modules_own_tests_pass(tmp_path):
     print(run_own_tests(tmp_path))
 
 
+@pytest.mark.built
 def test_the_modules_are_formatted_and_have_no_lint():
     biome = ROOT / "book" / "npm" / "node_modules" / "@biomejs" / "biome" / "bin" / "biome"
     if not biome.exists():

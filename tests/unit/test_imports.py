@@ -13,7 +13,7 @@ CORE = (
     "least_force critical branches contact similarity flight spring_law motion extremes sweep "
     "small_angle frequency rides choice travel accuracy uncertainty measured tyre energy"
 ).split()
-ROOMS = ("figures", "report", "explorer")  # may stand on all of the core
+ROOMS = ("figures", "report", "explorer", "practice")  # may stand on all of the core
 FACADES = {"animation": "figures"}  # a name of the contract, kept in a room
 DRAWING = {"figures", "report", "explorer", "animation"}
 ONLY_IN = {
@@ -28,7 +28,12 @@ ONLY_IN = {
 # What is loaded on demand, inside a function: by whoever asks for a table, or for sliders.
 ON_DEMAND = {"simulation": {"pandas"}, "suspension": {"suspension.explorer.explore"}}
 # What a room may use of another: the report shows figures, the explorer a still one and a caption.
-NEIGHBOURS = {"figures": set(), "report": {"figures"}, "explorer": {"figures", "report"}}
+NEIGHBOURS = {
+    "figures": set(),
+    "report": {"figures"},
+    "explorer": {"figures", "report"},
+    "practice": set(),
+}
 
 
 def dotted(path):

@@ -80,10 +80,13 @@ def test_the_farthest_springs_and_dampers():
 @pytest.mark.parametrize(
     ("better", "words"),
     [
-        ([], "is **on the front**: none of the map"),
-        ([(700, 2.4)], "**not on the front**: one suspension of the map beats it in all three"),
-        ([(700, 2.4)], "for example 700 N/m and 2.40 N s/m"),
-        ([(700, 2.4)] * 12, "12 suspensions of the map beat it"),
+        ([], "**No other.** The present suspension, 793 N/m and 1.50 N s/m, is on the front"),
+        (
+            [(700, 2.4)],
+            "**One suspension.** The present suspension, 793 N/m and 1.50 N s/m, is not on",
+        ),
+        ([(700, 2.4)], "700 N/m and 2.40 N s/m, for example, are better in all three"),
+        ([(700, 2.4)] * 12, "**12 suspensions.**"),
     ],
 )
 def test_whether_the_present_suspension_is_beaten(better, words):

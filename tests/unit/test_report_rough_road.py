@@ -30,10 +30,10 @@ def plain(text):
 
 def test_who_flies_where():
     text = plain(part.flights(NAMES, SPEEDS, LINEAR, SOME, ridden([[0, 1], [0, 1], [0, 1]])))
-    assert "“as it is” flies at 1.2 and 5 m/s, on every road at 5 m/s." in text
+    assert "**“as it is” flies at 1.2 and 5 m/s**, on every road at 5 m/s." in text
     assert "scatters less than the linear robot's" in text
     assert "Without the short waves it never does at 1.2 m/s." in text
-    assert "“soft” flew on none of 3 roads. With 95 % confidence" in text and "63 %" in text
+    assert "“soft” flew on none of 3 roads.** With 95 % confidence" in text and "63 %" in text
     assert not faults(text)
 
 

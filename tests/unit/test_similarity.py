@@ -156,7 +156,10 @@ def chart():
     return v, highest_bump(ROBOT, BUMP, v)
 
 
-@pytest.mark.parametrize("height", [0.001, 0.0056, 0.0254, 0.045, 0.2])
+others = [pytest.param(height, marks=pytest.mark.slow) for height in (0.001, 0.0056, 0.045, 0.2)]
+
+
+@pytest.mark.parametrize("height", [0.0254, *others])
 def test_regimes_of_any_height_are_the_chart_cut_at_that_height(height, chart):
     v, highest = chart
     bump = replace(BUMP, height=height)
@@ -309,6 +312,7 @@ def test_the_limits_of_the_window_meet_and_undo_each_other():
         near(closing_limit(eta), zeta, 1e-9)
 
 
+@pytest.mark.slow
 def test_the_limit_of_the_window_is_nearer_the_less_damping():
     j, lam = 0.72, 3.7
     off = []
@@ -330,7 +334,10 @@ def test_the_window_is_the_highest_bump_beyond_the_first_loss():
     near(highest_bump(ROBOT, BUMP, top.v), top.height, 1e-12)
 
 
-@pytest.mark.parametrize("height, opened", [(0.01, True), (0.048, True), (0.051, False)])
+@pytest.mark.parametrize(
+    "height, opened",
+    [pytest.param(0.01, True, marks=pytest.mark.slow), (0.048, True), (0.051, False)],
+)
 def test_the_window_is_open_where_regimes_go_from_lost_to_kept(height, opened):
     bump = replace(BUMP, height=height)
     found = regimes(ROBOT, bump, 1.5, 30)

@@ -3,8 +3,8 @@
 import { clamp, powers, show } from "./pen.js";
 
 /** A frame of logarithmic axes: where an x and a y lie in it, and what lies at a place. */
-export function logFrame(w, h, [x0, x1], [y0, y1]) {
-  const [left, right, top, bottom] = [38, w - 12, 24, h - 33];
+export function logFrame(w, h, [x0, x1], [y0, y1], left = 38) {
+  const [right, top, bottom] = [w - 12, 24, h - 33];
   return {
     ...{ left, right, top, bottom, ends: [x0, x1, y0, y1] },
     px: (x) => left + ((right - left) * Math.log(x / x0)) / Math.log(x1 / x0),
@@ -29,21 +29,28 @@ export function drawAxes({ stroke, line, text }, { left, right, bottom, ends, px
   }
 }
 
-/** A dashed line from edge to edge, its name along it where it is seen and no line across at `avoid`. */
+/**
+ * A dashed line from edge to edge. What comes back writes its name along it, where it is seen, there is
+ * room and no line across at `avoid`.
+ */
 export function drawLine({ g, stroke, line, text }, name, [from, to], { left, right, top, bottom }, avoid) {
   stroke("soft", 1.2, [6, 4]);
   line(left, from, right, to);
   const slope = (to - from) / (right - left),
     ends = [top + 16, bottom - 6].map((y) => clamp(left + (y - from) / slope, left, right));
-  if (Math.abs(ends[1] - ends[0]) < 40) return;
-  const places = [0.3, 0.15, 0.6].map((share) => {
+  if (Math.abs(ends[1] - ends[0]) < 40) return () => {};
+  const places = [0.3, 0.15, 0.6, 0.45, 0.75].map((share) => {
     const x = ends[0] + share * (ends[1] - ends[0]);
     return [x, from + slope * (x - left)];
   });
-  const free = places.find(([, y]) => !(Math.abs(y - avoid) <= 20)) ?? places[0];
-  g.save();
-  g.translate(...free);
-  g.rotate(Math.atan(slope));
-  text(name, 0, -5, { align: "center", halo: true });
-  g.restore();
+  const write = (place) => {
+    g.save();
+    g.translate(...place);
+    g.rotate(Math.atan(slope));
+    const written = text(name, 0, -5, { align: "center", halo: true });
+    g.restore();
+    return written;
+  };
+  const isAway = ([, y]) => !(Math.abs(y - avoid) <= 20);
+  return () => places.filter(isAway).some(write) || places.some(write);
 }

@@ -13,12 +13,18 @@ export const chartPanel = {
   title: "The highest bump crossed with contact, at every speed",
   key: ({ settings: { k, c, height, sigma } }) => [k, c, height, sigma],
   still(pen, scene) {
-    const { w, h, stroke, fill, inside } = pen,
+    const { w, h, stroke, fill, text, inside } = pen,
       { curve, data, settings, highestBumps } = scene;
-    const frame = logFrame(w, h, data.ranges.v, data.chart.heights),
+    const frame = logFrame(w, h, data.ranges.v, data.chart.heights, 46),
       { left, right, top, bottom, px, py } = frame;
     const y = clamp(py(settings.height), top, bottom); // of the bump
     this.frame = { ...frame, y };
+    text(show(MM * settings.height, settings.height < 1e-4 ? 2 : 3), left - 6, y + 4, {
+      align: "right",
+      colour: "ink",
+      bold: true,
+      halo: true,
+    }); // first, so that a number of the axis gives way
     drawAxes(pen, frame, ["speed v (m/s)", "Bump height (mm)"], MM);
     pen.legend(138, 13, right, [
       { words: "highest with contact", colour: "ink", width: 3, ink: "ink" },
@@ -26,6 +32,7 @@ export const chartPanel = {
         ? [{ words: "limits by hand", colour: "soft", width: 1.2, dash: [6, 4] }]
         : []),
     ]);
+    let nameLimits = [];
     inside(left, top, right - left, bottom - top, () => {
       const own = trace(
         highestBumps,
@@ -36,10 +43,11 @@ export const chartPanel = {
       const above = new Path2D(own);
       for (const x of [right, left]) above.lineTo(x, -h);
       fill("alarm", 0.1, above);
-      for (const limit of data.chart.limits) drawLimit(pen, limit, settings, this.frame);
+      nameLimits = data.chart.limits.map((limit) => drawLimit(pen, limit, settings, this.frame));
       stroke("ink", 3, [], own);
     });
     drawBump(pen, scene, this.frame);
+    for (const name of nameLimits) if (name) name();
   },
   grab(_x, y) {
     const { top, bottom, ends } = this.frame,
@@ -60,14 +68,17 @@ export const limitAt = ({ amplitude, powers: of }, settings, v) =>
     amplitude,
   );
 
-/** A limit as a thin line; there is none that a damper makes where there is no damper. */
+/**
+ * A limit as a thin line; there is none that a damper makes where there is no damper. What comes back
+ * writes its name.
+ */
 function drawLimit(pen, limit, settings, frame) {
   const heights = frame.ends.slice(0, 2).map((v) => frame.py(limitAt(limit, settings, v)));
-  if (heights.every(Number.isFinite)) drawLine(pen, limit.name, heights, frame, frame.y);
+  return heights.every(Number.isFinite) && drawLine(pen, limit.name, heights, frame, frame.y);
 }
 
 /** The bump across: thick where contact is kept, with the critical speeds and those asked for. */
-function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data, settings }, frame) {
+function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data }, frame) {
   const { px, y, left, right, bottom } = frame,
     edges = [data.ranges.v[0], ...critical, data.ranges.v[1]].map(px);
   edges.slice(1).forEach((b, i) => {
@@ -85,20 +96,12 @@ function drawBump({ stroke, line, dot, text }, { curve: { critical, kept }, data
   });
   for (const v of data.asked) dot(px(v), y, 4.5, "paper", "ink", 1.5);
   const names = distinct(critical),
-    rows = y + 36 < bottom ? [20, 34] : [-22, -36], // where there is room for the numbers
-    last = [-Infinity, -Infinity];
+    rows = y + 36 < bottom ? [20, 34] : [-22, -36]; // where there is room for the numbers
   critical.forEach((v, i) => {
     dot(px(v), y, 4.5, "ink");
-    const x = clamp(px(v), left + 14, right - 14),
-      row = last.findIndex((before) => x - before > 36);
-    if (row < 0) return; // the words above the picture have them all
-    text(names[i], x, y + rows[row], { align: "center", colour: "ink", bold: true, halo: true });
-    last[row] = x;
-  });
-  text(show(MM * settings.height), left - 6, y + 4, {
-    align: "right",
-    colour: "ink",
-    bold: true,
-    halo: true,
+    const x = clamp(px(v), left + 14, right - 14); // if there is none, the words above have them all
+    rows.some((row) =>
+      text(names[i], x, y + row, { align: "center", colour: "ink", bold: true, halo: true }),
+    );
   });
 }

@@ -2,11 +2,11 @@
 
 import { clamp, plain } from "./pen.js";
 import { readNumber } from "./state.js";
+import { HANDLE, tameSliders } from "./touch.js";
 
 export const UNITS = { dt: 1000, height: 1000, sigma: 1000 }; // a number's units in one of the model's
 const SNAP = 0.008; // of a slider, within which it takes the robot's own value
 const STRIDE = 0.01; // of a slider, for an arrow key
-const HANDLE = 20; // pixels, as the style sheet draws it
 
 /** From a value to a place on the slider, 0 to 1, and back. */
 export function makeScale([low, high, logarithmic]) {
@@ -49,6 +49,7 @@ export function nextValue(key, value, range, steps) {
 export function bindControls(box, model) {
   const facts = model.get("facts"),
     updates = [];
+  const release = tameSliders(box);
   const follow = (trait, update) => {
     model.on(`change:${trait}`, update);
     updates.push([`change:${trait}`, update]);
@@ -67,6 +68,7 @@ export function bindControls(box, model) {
     follow(trait, update);
   }
   return () => {
+    release();
     for (const [event, update] of updates) model.off(event, update);
   };
 }
@@ -124,6 +126,7 @@ function bindSlider(control, model, facts, follow) {
     const value = model.get(trait),
       shown = plain(value * units, 12);
     slider.value = scale.toPlace(value);
+    control.style.setProperty("--se-at", scale.toPlace(value)); // where only a strip shows it
     slider.setAttribute("aria-valuetext", `${shown} ${unit}${value === own ? ", the robot's own" : ""}`);
     if (document.activeElement !== number) {
       number.value = plain(value * units, 5);

@@ -1,4 +1,7 @@
 // Things in the pictures that one can take hold of: each panel says what is where, and what a move does.
+// A mouse holds at once; a finger when it taps, or pulls sideways, for else it scrolls the page.
+
+import { isPull } from "./touch.js";
 
 export function makeGrab({ panels, schedule, change }, shown, move) {
   for (const panel of panels) {
@@ -7,17 +10,35 @@ export function makeGrab({ panels, schedule, change }, shown, move) {
         const { left, top } = canvas.getBoundingClientRect();
         return [clientX - left, clientY - top];
       };
-    let hold = null;
-    canvas.addEventListener("pointerdown", (event) => {
-      if (event.button || !shown.isComputed()) return;
-      hold = panel.grab(...at(event), shown.options());
-      if (!hold) return;
-      canvas.setPointerCapture(event.pointerId);
+    let hold = null,
+      touched = null; // what a finger is on, and where it came down
+    const take = (found, { pointerId }) => {
+      hold = found;
+      canvas.setPointerCapture(pointerId);
       canvas.style.cursor = hold.cursor;
       if (hold.holds) shown.held = panel.name;
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      touched = null;
+      if (event.button || !shown.isComputed()) return;
+      const found = panel.grab(...at(event), shown.options());
+      if (!found) return;
+      if (event.pointerType === "touch") {
+        touched = { found, x: event.clientX, y: event.clientY };
+        return;
+      }
+      take(found, event);
       if (hold.at) move(hold.at);
     });
+    canvas.addEventListener("click", () => {
+      if (touched?.found.at) move(touched.found.at);
+      touched = null;
+    });
     canvas.addEventListener("pointermove", (event) => {
+      if (touched && isPull(event.clientX - touched.x, event.clientY - touched.y)) {
+        take(touched.found, event);
+        touched = null;
+      }
       if (hold) return move(hold.to(...at(event)));
       if (shown.isComputed() && event.pointerType === "mouse")
         canvas.style.cursor =
@@ -34,5 +55,6 @@ export function makeGrab({ panels, schedule, change }, shown, move) {
     };
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
       canvas.addEventListener(name, release);
+    canvas.addEventListener("pointercancel", () => (touched = null));
   }
 }

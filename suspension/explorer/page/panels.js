@@ -77,7 +77,7 @@ export const robotPanel = {
           colour: "doubt",
           bold: true,
           halo: true,
-        });
+        }); // in a narrow picture once, for both
       }
     });
     if (wild)
@@ -193,7 +193,7 @@ export const forcesPanel = {
       py = (N) => bottom - ((bottom - top) * (N - low)) / (high - low);
     this.frame = { left, right, top, bottom, px, py, end };
 
-    text("Normal forces (N)", 0, 13, { colour: "ink", bold: true });
+    text(right > 300 ? "Normal forces (N)" : "Forces (N)", 0, 13, { colour: "ink", bold: true });
     pen.legend(
       right - 164,
       13,
@@ -213,6 +213,8 @@ export const forcesPanel = {
         ? [{ words: `spring > ${show(1000 * data.springEnd)} mm`, colour: "doubt", width: 4, alpha: 0.6 }]
         : []),
     ]);
+    text("t (s)", right, h - 4, { align: "right" });
+    text("X (m)", left, top - 7);
     levels(pen, ticks(low, high, (bottom - top) / 34), py, left, right);
     stroke("soft", 1);
     for (const t of ticks(0, end, (right - left) / 70)) {
@@ -223,8 +225,6 @@ export const forcesPanel = {
       line(px(X / v), top, px(X / v), top - 4);
       text(show(X), px(X / v), top - 7, { align: "center" });
     }
-    text("t (s)", right, h - 4, { align: "right" });
-    text("X (m)", left, top - 7);
 
     inside(left, top, right - left, bottom - top, () => {
       for (const [a, b] of beyond) shade("doubt", 0.6, px(a), top, Math.max(px(b) - px(a), 2), 4);
@@ -411,12 +411,10 @@ export const speedsPanel = {
         );
       for (const v of data.asked) dot(px(v), py(Math.min(...curve.leastAt(v))), 3.5, "paper", "ink", 1.5);
     });
-    let last = -FAR;
     for (const v of critical) {
       dot(px(v), py(0), 4, "ink");
       const x = clamp(px(v), left + 14, right - 14);
-      text(show(v), x, x - last < 34 ? top - 22 : top - 8, { align: "center", colour: "ink" });
-      last = x - last < 34 ? last : x;
+      [top - 8, top - 22].some((y) => text(show(v), x, y, { align: "center", colour: "ink" }));
     }
   },
   live({ stroke, line, dot }, scene, { map }) {
@@ -465,7 +463,6 @@ export const stabilityPanel = {
     }
     text("Re λΔt", right, h - 4, { align: "right" });
     text("Im λΔt", left + 4, top + 12);
-    this.draw(pen, scene, this.frame, pinned, true);
     // When the modes crowd near zero: the same, enlarged. What one holds on to does not move away.
     const reach = dt * Math.max(...size);
     if (!held) {
@@ -474,15 +471,15 @@ export const stabilityPanel = {
       const crowded = reach * scale < 30 && side > 60;
       this.inset = crowded ? plane(x, x + side, y - side, y, 1.3 * reach, 0.72) : null;
     }
+    if (this.inset) pen.reserve(this.inset.left, this.inset.top, this.inset.right, this.inset.bottom);
+    this.draw(pen, scene, this.frame, pinned, true);
     if (this.inset) {
       const { left: x, top: y, right: x2, bottom: y2 } = this.inset;
       pen.shade("paper", 1, x, y, x2 - x, y2 - y);
       this.draw(pen, scene, this.inset, pinned, false);
       pen.stroke("soft", 1);
       pen.line(x, y, x2, y, x2, y2, x, y2, x, y);
-      text(`${show(this.inset.scale / scale, 2)} ×`, x + 4, y + 13, {
-        halo: true,
-      });
+      text(`${show(this.inset.scale / scale, 2)} ×`, x + 4, y + 13, { halo: true, over: true });
     }
   },
   draw({ stroke, fill, line, dot, text, inside }, { scheme, robot, dt, growths, data }, frame, pinned, main) {
@@ -499,7 +496,9 @@ export const stabilityPanel = {
       line(px(0), top, px(0), bottom);
       stroke("region", 1.6, [], region);
       if (main)
-        text("stable", px((-1.15 * half) / 3.4), py(0.12 * half), { align: "center", colour: "region" });
+        [0.12, 0.3].some((share) =>
+          text("stable", px((-1.15 * half) / 3.4), py(share * half), { align: "center", colour: "region" }),
+        );
       const others = new Path2D();
       stroke("soft", 0.6);
       for (const [re, im] of robot.modes) {

@@ -1,6 +1,7 @@
 // What every panel needs: numbers as text, round numbers for an axis, a pen for a canvas.
 
 const FAR = 5000; // pixels
+const SIZE = 12; // of letters in a picture, pixels
 
 export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
@@ -66,7 +67,18 @@ export function trace(values, x, y, width) {
   return path;
 }
 
-/** A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. */
+/** Where a text from x to x + length on a base line at y stands in its canvas, however it is turned. */
+function boxOf({ a, b, c, d, e, f }, x, y, length, size) {
+  const corners = [x, x + length].flatMap((x) => [y - 0.75 * size, y + 0.1 * size].map((y) => [x, y])),
+    xs = corners.map(([x, y]) => a * x + c * y + e),
+    ys = corners.map(([x, y]) => b * x + d * y + f);
+  return [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+}
+
+/**
+ * A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. It never
+ * writes over what it has written, nor what would be cut: of two words for one place the first stays.
+ */
 export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 1) {
   const g = canvas.getContext("2d");
   const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
@@ -74,6 +86,11 @@ export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.clearRect(0, 0, w, h);
   g.lineJoin = "round";
+  const taken = []; // boxes: left, right, top, bottom in the canvas
+  const isFree = ([left, right, top, bottom]) =>
+    left >= -ratio &&
+    right <= width + ratio &&
+    taken.every(([l, r, t, b]) => left >= r || right <= l || top >= b || bottom <= t);
   const pen = {
     g,
     w,
@@ -107,20 +124,33 @@ export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 
       if (colour) pen.fill(colour, 1, path);
       if (edge) pen.stroke(edge, lineWidth, [], path);
     },
-    text(words, x, y, { align = "left", colour = "soft", bold = false, halo = false } = {}) {
+    /** Keep words out of a rectangle. */
+    reserve(left, top, right, bottom) {
+      taken.push(boxOf(g.getTransform(), left, bottom, right - left, (bottom - top) / 0.85));
+    },
+    /** Write, where there is room for it; whether there was. `over`: whatever stands there. */
+    text(words, x, y, { align = "left", colour = "soft", bold = false, halo = false, over = false } = {}) {
       g.save();
-      g.font = `${bold ? "600 " : ""}${colours.size ?? 12}px ${colours.font}`;
+      g.font = `${bold ? "600 " : ""}${SIZE}px ${colours.font}`;
       g.textAlign = align;
-      pen.stroke("paper", 3); // so that it stays readable across a curve
-      if (halo) g.strokeText(words, x, y);
-      pen.fill(colour);
-      g.fillText(words, x, y);
+      const length = g.measureText(words).width,
+        left = x - { left: 0, center: length / 2, right: length }[align],
+        box = boxOf(g.getTransform(), left, y, length, SIZE),
+        free = over || isFree(box);
+      if (free) {
+        taken.push(box);
+        pen.stroke("paper", 3); // so that it stays readable across a curve
+        if (halo) g.strokeText(words, x, y);
+        pen.fill(colour);
+        g.fillText(words, x, y);
+      }
       g.restore();
+      return free;
     },
     /** Swatches, each with a word for it, one after another as long as there is room. */
     legend(x, y, end, entries) {
       g.save();
-      g.font = `${colours.size ?? 12}px ${colours.font}`;
+      g.font = `${SIZE}px ${colours.font}`;
       for (const { words, colour, width, alpha = 1, dash = [], ink = "soft" } of entries) {
         const next = x + 26 + g.measureText(words).width;
         if (next > end + 1) break;

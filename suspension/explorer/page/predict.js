@@ -165,7 +165,7 @@ export function renderPrediction(model, el) {
             line.name,
             line.ends.map((end) => py(10 ** end)),
             frame,
-          );
+          )();
       if (isExact) p.stroke("ink", 2, [], trace(answer.exact));
     });
     if (pen) p.dot(px(atStop()), py(10 ** pen.height), 6, "paper", "ink", 2);
@@ -176,7 +176,8 @@ export function renderPrediction(model, el) {
   function describe() {
     const now = heights();
     if (pen) return `At ${symbol} = ${show(atStop(), 2)}: ${show(10 ** pen.height, 2)}.`;
-    if (!laid.size) return answer ? "Your curve. Lay on it what you have derived." : describeDrawn(now);
+    if (!laid.size || share(now) < ENOUGH)
+      return answer ? "Your curve. Lay on it what you have derived." : describeDrawn(now);
     const told = answer.lines
       .filter(({ name }) => laid.has(name))
       .map((line) => compareLine(now, line, { ...facts, ...answer }));

@@ -73,9 +73,13 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
   over.addEventListener("click", () => act.set({ mapped: !model.get("mapped") }));
   addMenu();
   if (document.fullscreenEnabled) {
-    button(more, "Full screen").addEventListener("click", () =>
+    const full = button(more, "Full screen"),
+      tell = () => write(full, document.fullscreenElement === box ? "Exit full screen" : "Full screen");
+    full.addEventListener("click", () =>
       document.fullscreenElement ? document.exitFullscreen() : box.requestFullscreen(),
     );
+    document.addEventListener("fullscreenchange", tell);
+    undo.push(() => document.removeEventListener("fullscreenchange", tell));
   }
   for (const name of ["view", "motion", "mapped", "pin"]) follow[name]();
   history.note();

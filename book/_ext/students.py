@@ -1,0 +1,154 @@
+"""Notebooks to hand out, as a folder and a zip: ``python students.py students|solutions``.
+
+In the notebooks a heading that begins with Solution or Answer folds what stands below it. In the
+students' copy these folds are left out, and cells that print an answer; in the lecturer's copy the
+blanks of the workbook are filled. Both carry the package, as a wheel, and the data.
+"""
+
+import copy
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+import nbformat
+
+ROOT = Path(__file__).resolve().parents[2]
+KINDS = ("students", "solutions")
+HEADING = re.compile(r"^#+ .*", re.MULTILINE)
+SOLVED = re.compile(r"#+ (Solution|Answer)\b")
+ANSWER = re.compile(r"^answer\(", re.MULTILINE)
+PAGE = re.compile(r"\[([^\]]*)\]\((?:\.\./)+book/[^)]*\)")
+PIN = re.compile(r"^[\w.-]+==[^\\\n]*[^\\\s]", re.MULTILINE)
+START = """# {title}
+
+With Python 3.11, 3.12, 3.13 or 3.14, in this folder:
+
+    python -m venv .venv
+    .venv/bin/python -m pip install --requirement requirements.txt
+    .venv/bin/jupyter lab notebooks
+
+On Windows it is `.venv\\Scripts\\python` and `.venv\\Scripts\\jupyter`. Read a part, then fill in
+the notebook of the same name in `notebooks/workbook`.
+"""
+TITLES = {
+    "students": "A robot meets a bump: parts and workbook",
+    "solutions": "A robot meets a bump: parts and workbook, with all solutions",
+}
+
+
+def tagged(cell, tag):
+    """Whether a cell has a tag."""
+    return tag in cell.metadata.get("tags", [])
+
+
+def filled(notebook):
+    """A copy in which each blank of the workbook holds its solution."""
+    notebook, blank = copy.deepcopy(notebook), None
+    for cell in notebook.cells:
+        if tagged(cell, "blank"):
+            blank = cell
+        elif tagged(cell, "solution"):
+            blank.source = cell.source
+    return notebook
+
+
+def without_solutions(notebook):
+    """A copy without the folds that hold solutions and without answers."""
+    notebook, kept, folded = copy.deepcopy(notebook), [], False
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            pieces = []
+            starts = [0, *(found.start() for found in HEADING.finditer(cell.source))]
+            for start, end in zip(starts, [*starts[1:], None]):
+                piece = cell.source[start:end]
+                if HEADING.match(piece):
+                    folded = bool(SOLVED.match(piece))
+                if not folded:
+                    pieces.append(piece)
+            cell.source = "".join(pieces).strip()
+            if cell.source:
+                kept.append(cell)
+        elif not folded and not ANSWER.search(cell.source):
+            kept.append(cell)
+    notebook.cells = kept
+    return notebook
+
+
+def handed_out(notebook, kind, is_workbook):
+    """What a reader of a copy gets of a notebook: no link leads out of it."""
+    if is_workbook and kind == "solutions":
+        notebook = filled(notebook)
+    if is_workbook or kind == "students":
+        notebook = without_solutions(notebook)
+    notebook = copy.deepcopy(notebook)
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            cell.source = PAGE.sub(r"\1", cell.source)
+        elif is_workbook:
+            cell.outputs, cell.execution_count = [], None
+    return notebook
+
+
+def make_wheel(folder, root=ROOT):
+    """The package as a wheel, put into a folder."""
+    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
+    run = subprocess.run(command, cwd=root, capture_output=True, encoding="utf-8", errors="replace")
+    if run.returncode:
+        raise RuntimeError(f"the package could not be made into a wheel:\n{run.stderr}")
+    (wheel,) = Path(folder).glob("suspension-*.whl")
+    return wheel
+
+
+def write_copy(folder, kind, wheel, root=ROOT):
+    """Write a copy, `kind` being one of `KINDS`, into a new folder."""
+    folder = Path(folder)
+    for path in sorted(root.glob("notebooks/*.ipynb")) + sorted(
+        root.glob("notebooks/workbook/*.ipynb")
+    ):
+        target = folder / path.relative_to(root)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        notebook = nbformat.read(path, as_version=4)
+        nbformat.write(handed_out(notebook, kind, path.parent.name == "workbook"), target)
+    (folder / "data").mkdir()
+    for path in sorted(root.glob("data/*")):
+        if path.suffix in (".csv", ".mat", ".md"):
+            shutil.copy(path, folder / "data")
+    shutil.copy(wheel, folder)
+    pins = PIN.findall((root / "requirements.txt").read_text(encoding="utf-8"))
+    texts = {
+        "START.md": START.format(title=TITLES[kind]),
+        "constraints.txt": "\n".join([*pins, ""]),
+        "requirements.txt": f"--constraint constraints.txt\njupyterlab\n./{wheel.name}\n",
+    }
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+def write_zip(folder, target):
+    """Pack a folder, the same bytes from the same files."""
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
+        for path in sorted(folder.rglob("*")):
+            if path.is_file():
+                info = zipfile.ZipInfo(path.relative_to(folder.parent).as_posix())
+                info.compress_type, info.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+                packed.writestr(info, path.read_bytes())
+
+
+def hand_out(kind, build, root=ROOT):
+    """Write a copy into the folder `build`, and beside it packed; return the zip."""
+    folder = Path(build, f"suspension-{kind}")
+    shutil.rmtree(folder, ignore_errors=True)
+    with tempfile.TemporaryDirectory() as place:
+        write_copy(folder, kind, make_wheel(place, root), root)
+    packed = folder.with_suffix(".zip")
+    write_zip(folder, packed)
+    return packed
+
+
+if __name__ == "__main__":
+    (kind,) = sys.argv[1:]
+    print(hand_out(kind, ROOT / "_build" / kind))
