@@ -1267,7 +1267,9 @@ LAB_CELLS = [
     "from suspension.road import GaussianBump\nfrom suspension.robot import Robot\n" + BUMPS,
     f"box = explore({LOPSIDED}, two_bumps, v=0.8)\nbox",
     "run = box.explorer.trajectory()\n"
-    "np.savez('run.npz', W=run.W, N=run.N, v=run.v, dt=run.dt)\nprint('saved', run.v)",
+    "pinned = box.explorer.pin.get('v', 0)\n"
+    "np.savez('run.npz', W=run.W, N=run.N, v=run.v, dt=run.dt, pinned=pinned)\n"
+    "print('saved', run.v)",
 ]
 
 
@@ -1311,11 +1313,17 @@ def test_the_same_cell_is_alive_in_jupyterlab(browser, lab):
     page, rows = shown(tab)
     robot, road = PAGES["bumps"]
     compare((page, rows), robot, road)
+    before = words(tab)
+    tab.get_by_role("button", name="Pin to compare").click()
+    assert "Pinned, in grey at the same X" in words(tab)
+    slider(tab, "Moment").press(".")
+    assert words(tab) != before
     tab.locator(".jp-CodeCell .cm-content").last.click()
     tab.keyboard.press("Control+Enter")
     tab.get_by_text(re.compile(rf"saved {page['v']!r}")).wait_for(timeout=60_000)
     kernel = np.load(folder / "run.npz")
     assert (kernel["v"], kernel["dt"]) == (page["v"], page["dt"])
+    assert kernel["pinned"] == page["v"]
     assert np.abs(np.vstack([kernel["W"], kernel["N"]]) - rows).max() < PARITY
     before = tab.evaluate("document.body.dataset.jpThemeLight"), pictures(tab)
     tab.evaluate("document.body.dataset.jpThemeLight = 'false'")
