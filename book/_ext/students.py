@@ -5,6 +5,7 @@ students' copy these folds are left out, and cells that print an answer; in the 
 blanks of the workbook are filled. Both carry the package, as a wheel, and the data.
 """
 
+import ast
 import copy
 import re
 import shutil
@@ -57,8 +58,11 @@ def filled(notebook):
 
 
 def without_solutions(notebook):
-    """A copy without the folds that hold solutions and without answers."""
-    notebook, kept, folded = copy.deepcopy(notebook), [], False
+    """A copy without the folds that hold solutions and without answers.
+
+    Code in them stays, unfolded, where later code needs a name that nothing else makes.
+    """
+    notebook, kept, dropped, folded = copy.deepcopy(notebook), set(), set(), False
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             pieces = []
@@ -71,11 +75,50 @@ def without_solutions(notebook):
                     pieces.append(piece)
             cell.source = "".join(pieces).strip()
             if cell.source:
-                kept.append(cell)
-        elif not folded and not ANSWER.search(cell.source):
-            kept.append(cell)
-    notebook.cells = kept
+                kept.add(cell.id)
+        elif folded or ANSWER.search(cell.source):
+            dropped.add(cell.id)
+        else:
+            kept.add(cell.id)
+    kept |= needed_later(notebook.cells, dropped)
+    notebook.cells = [cell for cell in notebook.cells if cell.id in kept]
     return notebook
+
+
+def names(cell):
+    """The names that a cell of code makes, and those that it uses."""
+    lines = [line for line in cell.source.splitlines() if not line.startswith("%")]
+    made, used = set(), set()
+    for node in ast.walk(ast.parse("\n".join(lines))):
+        if isinstance(node, ast.Name):
+            (used if isinstance(node.ctx, ast.Load) else made).add(node.id)
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+            made.add(node.name)
+        elif isinstance(node, ast.arg):
+            made.add(node.arg)
+        elif isinstance(node, ast.alias):
+            made.add((node.asname or node.name).partition(".")[0])
+    return made, used
+
+
+def needed_later(cells, dropped):
+    """Which of the cells to be dropped make a name that later cells use and no other has made."""
+    known, own = set(), {}
+    for cell in cells:
+        if cell.cell_type == "code":
+            made, _ = names(cell)
+            own[cell.id] = made - known
+            known |= made if cell.id not in dropped else set()
+    needed, asked = set(), set()
+    for cell in reversed(cells):
+        if cell.cell_type == "code":
+            if cell.id in dropped and not own[cell.id] & asked:
+                continue
+            if cell.id in dropped:
+                needed.add(cell.id)
+            made, used = names(cell)
+            asked = (asked | used) - made
+    return needed
 
 
 def handed_out(notebook, kind, is_workbook):

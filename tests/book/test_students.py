@@ -116,8 +116,9 @@ def test_what_stands_before_and_after_a_solution_stays():
         nbformat.v4.new_markdown_cell("ask\n\n#### Solution\n\nsecret\n\n## Next\n\nstays"),
         nbformat.v4.new_markdown_cell("#### Solution"),
         nbformat.v4.new_code_cell("secret = 1"),
+        nbformat.v4.new_code_cell("needed = 3"),
         nbformat.v4.new_markdown_cell("secret\n\n### Proof\n\nstays"),
-        nbformat.v4.new_code_cell("stays = 2"),
+        nbformat.v4.new_code_cell("stays = needed"),
         nbformat.v4.new_code_cell('answer("1(i)", secret)'),
         nbformat.v4.new_markdown_cell("[the model](../book/model.md#a) and [a part](01-a.ipynb)"),
     ]
@@ -125,8 +126,9 @@ def test_what_stands_before_and_after_a_solution_stays():
     made = students.handed_out(notebook, "students", is_workbook=False)
     assert [cell.source for cell in made.cells] == [
         "ask\n\n## Next\n\nstays",
+        "needed = 3",
         "### Proof\n\nstays",
-        "stays = 2",
+        "stays = needed",
         "the model and [a part](01-a.ipynb)",
     ]
     assert "secret" in notebook.cells[0].source  # the book's own stays as it is
