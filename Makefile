@@ -11,9 +11,7 @@ BUILD := PYTHONHASHSEED=0 SOURCE_DATE_EPOCH=1795478400 \
     $(BIN)/jupyter-book build . --all -W -n --keep-going
 
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4
-# One more than there are cores, up to five: tests wait for browsers and servers.
-WORKERS := $(shell expr $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)
-BY_FILE := --numprocesses $(WORKERS) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
+BY_FILE := --dist loadfile --no-loadscope-reorder
 # Its import takes every process a second, and only notebooks need it.
 WITHOUT_NBVAL := -p no:nbval --override-ini addopts="--doctest-modules --import-mode=importlib -q"
 # Notebooks and tests run side by side: threads for small matrices would only stand in their way.
@@ -40,9 +38,9 @@ quick: lint
 
 # Before a change is handed in: everything. The book takes what nbval has executed a moment before.
 test: readings lint
-	$(BIN)/python -m pytest $(BY_FILE) -m "not built" notebooks tests suspension
+	$(PYTEST) $(BY_FILE) -m "not built" notebooks tests suspension
 	@$(MAKE) --no-print-directory book
-	$(BIN)/python -m pytest $(BY_FILE) -m built tests/book tests/browser tests/unit/test_explorer_page.py
+	$(PYTEST) $(BY_FILE) -m built tests/book tests/browser tests/unit/test_explorer_page.py
 
 # Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
 # MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.

@@ -26,11 +26,13 @@ UNITS = {name: unit for name, (_, unit, _) in SYMBOLS.items()} | {
 
 
 def say(*parts, name=None):
-    """Show Markdown paragraphs that a computation has filled in; an empty one is left out.
+    """Show Markdown paragraphs that a computation has filled in; what is empty is left out.
 
     With a `name`, other pages of the book can quote them.
     """
-    display(Markdown("\n\n".join(filter(None, parts))), metadata=_named(name) if name else {})
+    text = "\n\n".join(filter(None, parts))
+    if text:
+        display(Markdown(text), metadata=_named(name) if name else {})
 
 
 def _named(name):
