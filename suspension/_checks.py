@@ -11,11 +11,13 @@ __all__ = [
     "ends",
     "function",
     "instance",
+    "instances",
     "interval",
     "nonnegative",
     "number",
     "one_of",
     "positive",
+    "positives",
     "whole",
 ]
 
@@ -104,6 +106,16 @@ def instance(name, value, kind):
     return value
 
 
+def instances(name, values, kind):
+    """Return one or an array of `kind` as an array of objects, else raise TypeError naming it."""
+    values = np.asarray(values, dtype=object)
+    for value in values.flat:
+        if not isinstance(value, kind):
+            allowed = f"a {kind.__name__} or an array of them"
+            raise TypeError(f"{name} must be {allowed}, got {value!r}")
+    return values
+
+
 def function(name, value, signature):
     """Return `value` if it can be called, else raise TypeError naming it."""
     if not callable(value) or isinstance(value, type):
@@ -131,4 +143,12 @@ def array(name, value, shape=None, dtype=float, finite=True):
         raise ValueError(f"{name} must have shape {wanted}, got {x.shape}")
     if finite and not np.isfinite(x).all():
         raise ValueError(f"{name} must be finite everywhere, got {x[~np.isfinite(x)].flat[0]}")
+    return x
+
+
+def positives(name, values, shape=None):
+    """Return `values` as an array of finite numbers > 0; `shape` as in `array`."""
+    x = array(name, values, shape)
+    if not (x > 0).all():
+        raise ValueError(f"{name} must be > 0 everywhere, got {x[~(x > 0)].flat[0]}")
     return x
