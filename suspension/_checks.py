@@ -16,6 +16,7 @@ __all__ = [
     "nonnegative",
     "number",
     "one_of",
+    "pair",
     "positive",
     "positives",
     "whole",
@@ -80,6 +81,15 @@ def ends(low_name, low, high_name, high):
     """Return both ends of a range as floats, 0 < low < high."""
     low = positive(low_name, low)
     return low, number(high_name, high, f"> {low_name} = {low:g}", lambda x: x > low)
+
+
+def pair(name, value):
+    """Return both ends of a range that is one argument, ``(low, high)``, as floats > 0."""
+    try:
+        low, high = value
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be a pair (low, high), got {short(value)}") from None
+    return ends(f"{name}[0]", low, f"{name}[1]", high)
 
 
 def whole(name, value, low):

@@ -446,7 +446,7 @@ def explore(
     asked = _speeds("asked", asked)
     if compact == "race" and len(asked) < 2:
         raise ValueError(f"asked must be two speeds or more for a race, got {asked!r}")
-    low, high = family.speeds if speeds is None else _ends(speeds)
+    low, high = family.speeds if speeds is None else _checks.pair("speeds", speeds)
     if speeds is None:  # what is asked for by name can be reached
         low, high = min([low, *asked]), max([high, *asked])
     ranges = {"v": Range(low, high, True)} | family.ranges
@@ -489,19 +489,13 @@ def _speeds(name, values):
     return tuple(float(_checks.positive(name, v)) for v in values)
 
 
-def _ends(speeds):
-    """The ends of a range of speeds."""
-    try:
-        low, high = speeds
-    except (TypeError, ValueError):
-        raise ValueError(f"speeds must be a pair (low, high) in m/s, got {speeds!r}") from None
-    return tuple(map(float, _checks.ends("speeds[0]", low, "speeds[1]", high)))
-
-
 def _preset(preset, names, ranges):
     """A button's label and its settings, as the page reads them."""
-    label, settings = preset
-    checked = {}
+    try:
+        label, settings = preset
+        settings, checked = dict(settings), {}
+    except (TypeError, ValueError):
+        raise ValueError(f"presets must be pairs of a label and a dict, got {preset!r}") from None
     for name, value in settings.items():
         if name == "scheme":
             value = _checks.one_of("scheme of presets", getattr(value, "name", value), names)
