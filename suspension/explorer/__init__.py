@@ -38,6 +38,7 @@ from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.flight import fly
+from suspension.problem import SPEEDS
 from suspension.road import FlatRoad
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
@@ -68,9 +69,7 @@ SLIDERS = {False: NUMBERS, True: ("v",), "chart": ("c", "height"), "race": ()}
 TRAITS = (*NUMBERS, "scheme_index", "time", "motion", "view", "pace", "mapped", "pin")
 WIDTHS = 4.0  # of a bump to either side of its middle: further away there is nothing of it
 CELLS = (512, 8192)  # steps of the curve over all speeds, at least and at most
-
-
-START = 1.2  # m/s, for a robot and a road like the problem's
+START = SPEEDS[1]  # m/s, for a robot and a road like the problem's
 
 
 class Explorer(anywidget.AnyWidget):
@@ -104,10 +103,10 @@ class Explorer(anywidget.AnyWidget):
     _esm = bundle(PAGE, "widget")
     _css = without_comments((PAGE / "explorer.css").read_text(encoding="utf-8"))
 
-    v = traitlets.Float(1.2).tag(sync=True)
+    v = traitlets.Float(1.0).tag(sync=True)
     dt = traitlets.Float(0.001).tag(sync=True)
-    k = traitlets.Float(800.0).tag(sync=True)
-    c = traitlets.Float(1.5).tag(sync=True)
+    k = traitlets.Float(1.0).tag(sync=True)
+    c = traitlets.Float(1.0).tag(sync=True)
     height = traitlets.Float(1.0).tag(sync=True)
     sigma = traitlets.Float(1.0).tag(sync=True)
     scheme_index = traitlets.Int(0).tag(sync=True)
