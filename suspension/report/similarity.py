@@ -263,7 +263,7 @@ def chart_figure(zetas, own, found, speeds):
         f"The chart. Each curve is the highest bump that a robot crosses with contact; "
         f"{count(len(zetas), 'damping')} with $\\zeta$ up to {number(max(zetas), 2)}, ours "
         f"({number(own, 2)}) drawn thick. The bump of the problem is the line across, "
-        f"stressed where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
+        f"thick where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
         f"{count(crossed, 'critical speed')}.",
         "Highest bump against speed on logarithmic axes, a curve for each damping. All come down "
         "together from the left; to the right they rise, and the more damping there is, the "
