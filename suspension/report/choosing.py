@@ -51,8 +51,8 @@ def farthest(stiffest, strongest, asked):
     other = quantity(stiffest.robot.c1, "N s/m", 4)
     return (
         f"**In a region that ends at {k} and {c}:** no stiffer spring and no stronger damper of "
-        f"this map keeps contact at {speed_list(asked)}. With the stiffest springs the dampers must be "
-        f"of {other}."
+        f"this map keeps contact at {speed_list(asked)}. With the stiffest "
+        f"springs the dampers must be of {other}."
     )
 
 
@@ -176,7 +176,7 @@ def between(candidates):
 
 
 def robust_table(least):
-    """The least margin at the asked speeds when something is not as it was thought, and who keeps contact.
+    """The least margins when something is not as it was thought, and who keeps contact.
 
     Parameters
     ----------
@@ -189,7 +189,8 @@ def robust_table(least):
     ]
     names = next(iter(least.values()))
     safe = [name for name in names if all(m[name] > -SHOWN for m in least.values())]
-    return f"{table(rows)}\n\nIn every case contact is kept by: **{join(safe, none='none of them')}**."
+    note = f"In every case contact is kept by: **{join(safe, none='none of them')}**."
+    return f"{table(rows)}\n\n{note}"
 
 
 def drive_links(candidates, reach, v):
