@@ -117,7 +117,7 @@ def asked(found, speeds):
 
 
 def cut(found):
-    """Where the line of the bump crosses the curve, and what holds between."""
+    """Where the line of the bump crosses the curve."""
     low, high = (f"{v:g}" for v in found.edges[[0, -1]])
     crossings = len(found.critical)
     if not crossings:
@@ -131,7 +131,7 @@ def cut(found):
     what = "the critical speed" if crossings == 1 else "every critical speed there is"
     return (
         f"From {low} to {high}{SPACE}m/s the bump's line crosses the curve {times}, at "
-        f"{speeds}{SPACE}m/s: {what}. Contact is {ranges(found)}."
+        f"{speeds}{SPACE}m/s: {what}."
     )
 
 
