@@ -41,7 +41,6 @@ KNOWN = {
     "Radau IIA, order 3": ("5/12 -1/12; 3/4 1/4", "3/4 1/4"),
     "Lobatto IIIA, order 4": ("0 0 0; 5/24 1/3 -1/24; 1/6 2/3 1/6", "1/6 2/3 1/6"),
 }
-START = "RK4"
 SPEEDS = (0.25, 10.0)  # m/s, what the slider offers
 STEPS = (0.001, 0.2)  # s
 
@@ -78,14 +77,16 @@ class Workshop(Instrument):
 
     def __init__(self, robot, bump, v=1.2, dt=0.02):
         self.robot = robot
+        schemes = [
+            {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
+            for name, (a, b) in KNOWN.items()
+        ]
+        start = next(scheme for scheme in schemes if scheme["name"] == RK4.name)
         distance = distance_over(robot, bump)
         frame, table = shape_of(bump, 0, 0)
         super().__init__(
             facts={
-                "schemes": [
-                    {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
-                    for name, (a, b) in KNOWN.items()
-                ],
+                "schemes": schemes,
                 "ranges": {"v": SPEEDS, "dt": STEPS},
                 "robot": {
                     "A": robot.A.tolist(),
@@ -102,6 +103,12 @@ class Workshop(Instrument):
                 "road": frame | {"table": base64.b64encode(table.astype("<f8").tobytes()).decode()},
                 "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
                 "traded": longest_of_order_two(robot.eigenvalues),
+            },
+            tableau={
+                "a": start["a"],
+                "b": start["b"],
+                "c": [""] * len(start["b"]),
+                "follows": True,
             },
             v=v,
             dt=dt,
@@ -130,7 +137,8 @@ class Workshop(Instrument):
         return Scheme(**self.numbers)
 
     def _state(self):
-        return super()._state() | {"v": self.v, "dt": self.dt, "tableau": {}, "kept": {}}
+        own = {name: getattr(self, name) for name in ("tableau", "kept", "v", "dt")}
+        return super()._state() | own
 
     def _draw(self):
         with plt.style.context("suspension.figures.report"):
