@@ -8,6 +8,7 @@ import numpy as np
 import traitlets
 from scipy.optimize import minimize_scalar
 
+from suspension import _checks
 from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.settings import REFERENCE
@@ -15,6 +16,8 @@ from suspension.explorer.still import svg
 from suspension.explorer.tables import shape_of
 from suspension.figures import plot_stability
 from suspension.least_force import distance_over
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["KNOWN", "Workshop", "workshop_script", "workshop_style"]
@@ -76,7 +79,9 @@ class Workshop(Instrument):
     dt = traitlets.Float().tag(sync=True)
 
     def __init__(self, robot, bump, v=1.2, dt=0.02):
-        self.robot = robot
+        self.robot = _checks.instance("robot", robot, Robot)
+        _checks.instance("bump", bump, GaussianBump)
+        v, dt = _within("v", v, SPEEDS), _within("dt", dt, STEPS)
         schemes = [
             {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
             for name, (a, b) in KNOWN.items()
@@ -145,6 +150,11 @@ class Workshop(Instrument):
             figure, ax = plt.subplots(figsize=(7.2, 4.2))
             plot_stability(RK4, self.robot.eigenvalues, [self.dt], (-6, 4, -4.5, 4.5), ax=ax)
         return svg(figure)
+
+
+def _within(name, value, ends):
+    low, high = ends
+    return _checks.number(name, value, f"from {low:g} to {high:g}", lambda x: low <= x <= high)
 
 
 def longest_of_order_two(eigenvalues):

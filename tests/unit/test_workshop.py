@@ -19,6 +19,7 @@ ROBOT, BUMP = Robot(800, 800), GaussianBump()
 ASK = """
 import { readFileSync } from "node:fs";
 import { growthAt, orderOf, readEntry, rowSums } from "./page/tableau.js";
+import { alongAxis } from "./page/workshop_draw.js";
 import { makeBench } from "./page/workshop_run.js";
 import { examine, puzzles } from "./page/workshop_words.js";
 
@@ -31,6 +32,7 @@ for (const { a, b } of tables) {
   const found = examine(numbers, modes);
   const answer = { ...found, limit: String(found.limit) };
   answer.values = z.map((point) => growthAt(found.R, point));
+  answer.axis = alongAxis(found.R);
   answer.puzzles = puzzles(found, facts?.traded ?? 1);
   answer.runs = (runs ?? []).map(([v, dt]) => {
     const { run, exact, error, J, work } = bench.try(numbers, v, dt);
@@ -203,6 +205,17 @@ def test_random_tables_have_the_stability_function_and_limit_of_their_scheme(tmp
     assert {0.0, np.inf} & set(limits) and sum(0 < limit < np.inf for limit in limits) > 10
 
 
+def test_damping_and_phase_along_the_imaginary_axis_are_those_of_r(known):
+    for answer in known.values():
+        a, b, c = (np.array(answer["numbers"][name]) for name in "abc")
+        y = np.array(answer["axis"]["ys"])
+        R = Scheme("", 1, a, b, c).stability_function(1j * y)
+        np.testing.assert_allclose(answer["axis"]["sizes"], np.abs(R), rtol=PARITY)
+        phase = np.unwrap(np.angle(R))[1:] / y[1:]
+        np.testing.assert_allclose(answer["axis"]["phases"][1:], phase, rtol=PARITY)
+        assert phase[0] == pytest.approx(1, abs=1e-3)
+
+
 def test_a_stable_means_that_nothing_grows_in_the_left_half_plane(tmp_path):
     rng = np.random.default_rng(8)
     schemes = list(random_schemes(rng, 120))
@@ -255,7 +268,10 @@ def test_runs_are_those_of_simulate_and_the_closed_form(workshop, tmp_path, v, d
 
 def test_entries_are_read_as_one_writes_them(tmp_path):
     script = """import { readEntry, writeEntry } from "./page/tableau.js";
-    for (const text of %s) console.log(JSON.stringify([readEntry(text), writeEntry(readEntry(text) ?? 0)]));"""
+    for (const text of %s) {
+      const value = readEntry(text);
+      console.log(JSON.stringify([value, writeEntry(value ?? 0)]));
+    }"""
     good = {
         "1/6": 1 / 6,
         "1,5": 1.5,
@@ -324,3 +340,18 @@ def test_a_page_gets_a_still_picture_and_says_what_it_shows(workshop):
 
 def test_the_course_s_robot_can_be_tried_too():
     assert Workshop(course.the_robot(), course.Hgauss).facts["traded"] > 0
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        ((1, BUMP), "robot must"),
+        ((ROBOT, 1), "bump must"),
+        ((ROBOT, BUMP, 11), "v must be from 0.25 to 10"),
+        ((ROBOT, BUMP, 1, 0), "dt must be from 0.001 to 0.2"),
+        ((ROBOT, BUMP, 1, np.nan), "dt must"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(arguments, words):
+    with pytest.raises((TypeError, ValueError), match=words):
+        Workshop(*arguments)

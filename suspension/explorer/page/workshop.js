@@ -411,11 +411,11 @@ export function renderWorkshop(model, el) {
     write(rows.R, Q === "1" ? P : `(${P}) / (${Q})`);
     write(rows.stability, stabilityWords(good));
     write(rows.limit, limitWords(good));
-    CONDITIONS.forEach(({ density }, i) => {
+    CONDITIONS.forEach((_, i) => {
       const { item, words } = marks[i],
         holds = good.holds[i];
       item.classList.toggle("se-holds", holds);
-      write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}, not ${show(1 / density, 4)}`);
+      write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}`);
     });
     puzzles(good, facts.traded).forEach(({ isWon, words }, i) => {
       riddles[i].item.classList.toggle("se-won", isWon);

@@ -3,7 +3,7 @@
 import { clamp, show, ticks, trace } from "./pen.js";
 import { growthAt } from "./tableau.js";
 
-const CELLS = 90; // of the region's picture, across
+const CELLS = 80; // of the region's picture, across
 const TALL = 4.5; // of the region's window, from its middle, at least
 export const PHASES = 3; // of the imaginary axis, rad
 
