@@ -124,18 +124,15 @@ export function drawRegion(p, R, other, points) {
 /** |R(iy)| and its phase over y, unwrapped, on [0, PHASES]: pairs of lists. */
 export function alongAxis(R, count = 121) {
   const ys = Array.from({ length: count }, (_, i) => (PHASES * i) / (count - 1));
-  let turned = 0,
-    before = 0;
   const sizes = [],
     phases = [];
+  let angle = 0;
   for (const y of ys) {
     const [re, im] = growthAt(R, [0, y]),
-      angle = Math.atan2(im, re);
-    if (angle - before > Math.PI) turned -= 2 * Math.PI;
-    if (angle - before < -Math.PI) turned += 2 * Math.PI;
-    before = angle;
+      turn = Math.atan2(im, re);
+    angle = turn + 2 * Math.PI * Math.round((angle - turn) / (2 * Math.PI));
     sizes.push(Math.hypot(re, im));
-    phases.push(y ? (angle + turned) / y : 1);
+    phases.push(y ? angle / y : 1);
   }
   return { ys, sizes, phases };
 }
