@@ -200,6 +200,7 @@ def test_puzzles_check_themselves(visit):
     assert KUTTA in said(tab) and "What must change?" in first.inner_text()
     type_table(tab, a21="0.452", a31="0", a32="1/2", b1="0", b2="0", b3="1")
     assert "Won" in second.inner_text() and won.count() == 1
+    assert said(tab).endswith("Puzzle 2 is solved.")
     start_from(tab, "Lobatto IIIA, order 4")
     assert "Won" in first.inner_text() and "A-stable, but implicit" in third.inner_text()
 

@@ -312,7 +312,7 @@ export function renderWorkshop(model, el) {
   const riddles = puzzles(examine(start.values, robot.modes), facts.traded).map(({ task }) => {
     const item = make(tasks, "li");
     make(item, "strong", "", {}, task);
-    return { item, words: make(item, "span", "se-verdict", { role: "status" }) };
+    return { item, words: make(item, "span", "se-verdict") };
   });
 
   // ---- from the state to what one sees
@@ -404,7 +404,12 @@ export function renderWorkshop(model, el) {
 
   function tell(isBad) {
     const name = nameOf(good.numbers);
-    write(said, (isBad ? "The last table that could be read: " : "") + headline(name, good));
+    const riddlesNow = puzzles(good, facts.traded),
+      solved = riddlesNow.flatMap(({ isWon }, i) => (isWon ? [` Puzzle ${i + 1} is solved.`] : []));
+    write(
+      said,
+      (isBad ? "The last table that could be read: " : "") + headline(name, good) + solved.join(""),
+    );
     write(rows.order, orderWords(good));
     const P = polynomial(good.R.P),
       Q = polynomial(good.R.Q);
@@ -417,7 +422,7 @@ export function renderWorkshop(model, el) {
       item.classList.toggle("se-holds", holds);
       write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}`);
     });
-    puzzles(good, facts.traded).forEach(({ isWon, words }, i) => {
+    riddlesNow.forEach(({ isWon, words }, i) => {
       riddles[i].item.classList.toggle("se-won", isWon);
       write(riddles[i].words, words);
     });
