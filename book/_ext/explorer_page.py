@@ -1,10 +1,11 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
 An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`), a
-prediction's its axes. Pages that hold one get its script and the style sheet; the widgets, which
-only a kernel's front end could use, and their state are left out. The directive ``{explorer}
-name`` shows an explorer that a notebook has named, on another page, and links like
-``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the page they point to.
+prediction's its axes, an instrument's of the laboratory its still picture. Pages that hold one get
+its script and the style sheet; the widgets, which only a kernel's front end could use, and their
+state are left out. The directive ``{explorer} name`` shows an explorer that a notebook has named,
+on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the
+page they point to.
 """
 
 import json
@@ -18,22 +19,33 @@ from sphinx.addnodes import pending_xref
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 
-from suspension.explorer import page_script, page_style, prediction_script
+from suspension.explorer import (
+    page_script,
+    page_style,
+    prediction_script,
+    workshop_script,
+    workshop_style,
+)
 
 PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
 EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
-BOX = re.compile(f"{EXPLORER}|{PREDICTION}")
+LABORATORY, WORKSHOP = "suspension-laboratory", "suspension-laboratory se-workshop"
+BOX = re.compile(f"{EXPLORER}|{PREDICTION}|{LABORATORY}")
+SCRIPTS = {EXPLORER: "explorer.js", PREDICTION: "prediction.js", WORKSHOP: "workshop.js"}
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
+STYLES = {WIDE: "wide.css", WORKSHOP: "workshop.css"}
 WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
     "prediction.js": prediction_script,
+    "workshop.js": workshop_script,
     "explorer.css": page_style,
+    "workshop.css": workshop_style,
     "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
 }
 
@@ -56,11 +68,12 @@ def add_files(app, page, template, context, doctree):
     html = "".join(node.astext() for node in doctree.findall(nodes.raw))
     if BOX.search(html):
         app.add_css_file("explorer.css")
-    for mark, script in ((EXPLORER, "explorer.js"), (PREDICTION, "prediction.js")):
+    for mark, script in SCRIPTS.items():
         if mark in html:
             app.add_js_file(script, loading_method="defer")
-    if WIDE in html:
-        app.add_css_file("wide.css")
+    for mark, style in STYLES.items():
+        if mark in html:
+            app.add_css_file(style)
 
 
 def keep_pages(app, page, source):

@@ -37,6 +37,7 @@ from suspension.explorer.settings import (
 from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
+from suspension.explorer.workshop import Workshop, workshop_script, workshop_style
 from suspension.flight import fly
 from suspension.problem import SPEEDS
 from suspension.road import FlatRoad
@@ -50,10 +51,13 @@ __all__ = [
     "Explorer",
     "ExplorerBox",
     "Prediction",
+    "Workshop",
     "explore",
     "page_script",
     "page_style",
     "prediction_script",
+    "workshop_script",
+    "workshop_style",
 ]
 
 PAGE = Path(__file__).parent / "page"

@@ -1,18 +1,16 @@
 """A prediction: the reader draws a curve on empty axes, and later lays the answer beside it."""
 
-import json
 from pathlib import Path
 
-import anywidget
 import ipywidgets
 import matplotlib.pyplot as plt
 import numpy as np
 import traitlets
-from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle
-from suspension.explorer.still import RUN_NOTEBOOK, picture, still_image, svg
+from suspension.explorer.instrument import Instrument
+from suspension.explorer.still import svg
 from suspension.figures.similarity import empty_axes
 
 __all__ = ["Prediction"]
@@ -23,7 +21,7 @@ NEAR = np.log10(1.5)  # so close to the exact curve that a line says what happen
 BEYOND = 1.0  # decades that are kept of a curve outside the axes
 
 
-class Prediction(anywidget.AnyWidget):
+class Prediction(Instrument):
     """Empty logarithmic axes to draw on, by mouse, pen, finger or keys.
 
     Displayed, it asks for a curve; `answer` gives the widget that lays lines and the exact curve
@@ -45,7 +43,7 @@ class Prediction(anywidget.AnyWidget):
     _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
 
     strokes = traitlets.List().tag(sync=True)
-    facts = traitlets.Dict().tag(sync=True)
+    to = "draw on it"
 
     def __init__(self, name, x, y, x_name, y_name, **facts):
         self.name = name
@@ -101,32 +99,19 @@ class Prediction(anywidget.AnyWidget):
         ipywidgets.jslink((self, "strokes"), (answered, "strokes"))
         return answered
 
-    def _ipython_display_(self):
-        drawn = self._draw()
-        below = RUN_NOTEBOOK.replace("drive it", "draw on it")
-        page = {"text/html": self._html(drawn, below)}
-        if drawn:  # a page has the first, a notebook that was not run the second
-            page["image/svg+xml"] = picture(drawn, "draw on it")
-        display(page, raw=True)
-        # Nothing as HTML: a page, or a notebook that is not trusted, has the first display.
-        widget, metadata = super()._repr_mimebundle_()
-        display(widget | {"text/html": ""}, raw=True, metadata=metadata)
+    @property
+    def kind(self):
+        """Its box; one that answers waits in a page until something is drawn."""
+        return f"suspension-prediction se-{'answered' if 'answer' in self.facts else 'asked'}"
 
-    def html(self):
-        """The prediction as HTML; `page_script` brings it to life."""
-        return self._html(self._draw())
-
-    def _html(self, drawn, below=""):
-        state = {"name": self.name, "facts": self.facts}
-        text = json.dumps(state, separators=(",", ":")).replace("<", "\\u003c")
+    @property
+    def alt(self):
+        """What is seen before anything is drawn."""
         x_name, y_name = self.facts["names"]
-        alt = f"Empty logarithmic axes: {y_name} against {x_name}."
-        still = still_image(drawn, alt) + below if drawn else ""
-        return (
-            f'<div class="suspension-prediction se-{"asked" if drawn else "answered"}">'
-            f'<div class="se-place">{still}</div>'
-            f'<script type="application/json" class="se-state">{text}</script></div>'
-        )
+        return f"Empty logarithmic axes: {y_name} against {x_name}."
+
+    def _state(self):
+        return {"name": self.name, "facts": self.facts}
 
     def _draw(self):
         """Empty axes as SVG; nothing of an answer, which stands beside a figure."""
