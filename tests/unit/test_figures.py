@@ -15,6 +15,7 @@ from suspension.energy import Energy
 from suspension.figures import (
     film,
     plot_all_forces,
+    plot_branches,
     plot_chart,
     plot_comb,
     plot_confidence_region,
@@ -118,6 +119,7 @@ ON_ONE = {
     "plot_window": lambda ax: plot_window(
         ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
     ),
+    "plot_branches": lambda ax: plot_branches(BRANCHES, 800, (780, 820), [1.2], ax),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
