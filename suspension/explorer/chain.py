@@ -142,7 +142,7 @@ class Chain(Instrument):
         fit = self.fit
         band = None if fit.exact else fit.stiffness_interval(LEVEL)
         with plt.style.context("suspension.figures.report"):
-            figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), layout="constrained")
+            figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.2))
             plot_fit(fit, self._data, LEVEL, axes[0])
             plot_confidence_region(fit, level=LEVEL, ax=axes[1])
             axes[1].get_legend().remove()

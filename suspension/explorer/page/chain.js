@@ -14,6 +14,7 @@ import {
   tellReading,
   tellSpeeds,
   tellStiffness,
+  tellVerdicts,
   verdictRows,
 } from "./verdict.js";
 
@@ -331,20 +332,20 @@ export function renderChain(model, el) {
   // ---- what one reads
 
   function makeTables() {
-    const make1 = (caption, heads) => {
-      const table = make(texts, "table", "");
+    const tableIn = (parent, caption, heads) => {
+      const table = make(parent, "table", "");
       make(table, "caption", "", {}, caption);
       const head = make(make(table, "thead", ""), "tr", "");
       for (const name of heads) make(head, "th", "", { scope: "col" }, name);
       return make(table, "tbody", "");
     };
-    const percent = `${show(100 * facts.level, 2)} %`;
-    const told = (table) => [make(texts, "p", ""), table()];
-    const [line, coefficients] = told(() =>
-      make1("Coefficients", ["", "estimate", `alone, ${percent}`, `jointly, ${percent}`]),
-    );
-    const [speed, speeds] = told(() => make1("Critical speeds", ["at k", "in the interval of k", "exists"]));
-    return { line, coefficients, speed, speeds, verdicts: make1("Asked speeds", ["speed", "contact", "lost with confidence"]) };
+    const percent = `${show(100 * facts.level, 2)} %`,
+      verdicts = tableIn(make(stage, "div", "se-verdicts"), "Asked speeds", ["speed", "contact", "lost with confidence"]),
+      line = make(texts, "p", ""),
+      coefficients = tableIn(texts, "Coefficients", ["", "estimate", `alone, ${percent}`, `jointly, ${percent}`]),
+      speed = make(texts, "p", ""),
+      speeds = tableIn(texts, "Critical speeds", ["at k", "in the interval of k", "exists"]);
+    return { verdicts, line, coefficients, speed, speeds };
   }
   /** Rows of words; what stays is not touched. */
   function fill(body, rows) {
@@ -364,7 +365,7 @@ export function renderChain(model, el) {
     if (!hold || !view) look();
     const [stiffness, line, speeds] = [tellStiffness, tellLine, tellSpeeds].map((tell) => tell(now, facts)),
       rows = verdictRows(now, facts);
-    write(headline, stiffness);
+    write(headline, `${stiffness} ${tellVerdicts(now, facts)}`.trim());
     write(chosen, tellReading(readings(), at, now));
     write(tables.line, line);
     write(tables.speed, speeds);

@@ -3,6 +3,7 @@
 import { show } from "./pen.js";
 
 const SPACE = "\u00a0";
+const OPEN = "cannot be told";
 const SEEN = 5e-5; // what lies beyond the table is told from here on: a confidence has two decimals
 
 /** A number with its unit. */
@@ -86,10 +87,27 @@ export function tellSpeeds({ fit, critical }, { k, v, error }) {
 export function verdictRows({ verdicts }, { level }) {
   return (verdicts ?? []).map(({ v, lost, beyond }) => {
     const kept = Math.max(1 - lost - beyond, 0),
-      verdict = lost >= level ? "lost" : kept >= level ? "kept" : "cannot be told";
+      verdict = lost >= level ? "lost" : kept >= level ? "kept" : OPEN;
     const sure = beyond < SEEN ? confidence(lost) : `${confidence(lost)} to ${confidence(lost + beyond)}`;
     return [of(v, "m/s"), verdict, sure];
   });
+}
+
+/** The verdicts in one sentence, those that cannot be told too. */
+export function tellVerdicts(found, facts) {
+  const rows = verdictRows(found, facts);
+  const at = (verdict) =>
+    rows
+      .filter((row) => row[1] === verdict)
+      .map(([v]) => v.split(SPACE)[0])
+      .join(", ")
+      .replace(/, (?=[^,]*$)/, " and ");
+  const told = [
+    ["kept", "contact kept at"],
+    ["lost", "lost at"],
+    [OPEN, "cannot be told at"],
+  ].flatMap(([verdict, words]) => (at(verdict) ? `${words} ${at(verdict)}${SPACE}m/s` : []));
+  return told.length ? `${capital(told.join("; "))}.` : "";
 }
 
 /** The critical speeds, each with its interval and where it exists. */
@@ -101,7 +119,7 @@ export function speedRows({ critical }) {
     return [
       speed === null ? "none at this k" : of(speed, "m/s"),
       range([low, high], "m/s"),
-      where ? `only ${where}` : "everywhere",
+      where ? `only ${where}` : "in the whole interval",
     ];
   });
 }
