@@ -38,6 +38,7 @@ from suspension.explorer.settings import (
 from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
+from suspension.explorer.workshop import Workshop, workshop_script, workshop_style
 from suspension.flight import fly
 from suspension.road import FlatRoad
 from suspension.robot import Robot
@@ -51,12 +52,15 @@ __all__ = [
     "Explorer",
     "ExplorerBox",
     "Prediction",
+    "Workshop",
     "chain_script",
     "chain_style",
     "explore",
     "page_script",
     "page_style",
     "prediction_script",
+    "workshop_script",
+    "workshop_style",
 ]
 
 PAGE = Path(__file__).parent / "page"

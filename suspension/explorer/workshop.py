@@ -8,16 +8,13 @@ import numpy as np
 import traitlets
 from scipy.optimize import minimize_scalar
 
-from suspension import _checks
 from suspension.explorer.bundle import bundle, without_comments
-from suspension.explorer.family import before_the_bump
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.settings import REFERENCE
 from suspension.explorer.still import svg
 from suspension.explorer.tables import shape_of
 from suspension.figures import plot_stability
-from suspension.road import GaussianBump
-from suspension.robot import Robot
+from suspension.least_force import distance_over
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["KNOWN", "Workshop", "workshop_script", "workshop_style"]
@@ -45,3 +42,130 @@ KNOWN = {
     "Lobatto IIIA, order 4": ("0 0 0; 5/24 1/3 -1/24; 1/6 2/3 1/6", "1/6 2/3 1/6"),
 }
 START = "RK4"
+SPEEDS = (0.25, 10.0)  # m/s, what the slider offers
+STEPS = (0.001, 0.2)  # s
+
+
+class Workshop(Instrument):
+    """A one-step method as a table of numbers that one changes: order, stability, a run.
+
+    In JupyterLab and in a built page the same module draws it.
+
+    Parameters
+    ----------
+    robot : Robot
+        Whose modes and whose run over the bump are shown.
+    bump : GaussianBump
+    v : float
+        Speed, m/s, 0.25 to 10.
+    dt : float
+        Time step, s, 0.001 to 0.2.
+    """
+
+    _esm = bundle(PAGE, "workshop_widget")
+    _css = "".join(
+        (PAGE / name).read_text(encoding="utf-8") for name in ("explorer.css", "workshop.css")
+    )
+
+    kind = "suspension-laboratory se-workshop"
+    to = "type into it"
+
+    tableau = traitlets.Dict().tag(sync=True)  # a, b, c as they are typed; does c follow a?
+    kept = traitlets.Dict().tag(sync=True)  # one to compare with, or empty
+    numbers = traitlets.Dict().tag(sync=True)  # what is typed means; set by the page
+    v = traitlets.Float().tag(sync=True)
+    dt = traitlets.Float().tag(sync=True)
+
+    def __init__(self, robot, bump, v=1.2, dt=0.02):
+        self.robot = robot
+        distance = distance_over(robot, bump)
+        frame, table = shape_of(bump, 0, 0)
+        super().__init__(
+            facts={
+                "schemes": [
+                    {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
+                    for name, (a, b) in KNOWN.items()
+                ],
+                "ranges": {"v": SPEEDS, "dt": STEPS},
+                "robot": {
+                    "A": robot.A.tolist(),
+                    "C": robot.C.tolist(),
+                    "D": robot.D.tolist(),
+                    "P": robot.P.tolist(),
+                    "equilibrium": robot.equilibrium.tolist(),
+                    "weight": (robot.C @ robot.equilibrium).tolist(),
+                    "modes": [[z.real, z.imag] for z in robot.eigenvalues],
+                },
+                "wheels": robot.arms.tolist(),
+                "distance": distance,
+                "bump": {"height": bump.height, "sigma": bump.sigma},
+                "road": frame | {"table": base64.b64encode(table.astype("<f8").tobytes()).decode()},
+                "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
+                "traded": longest_of_order_two(robot.eigenvalues),
+            },
+            v=v,
+            dt=dt,
+        )
+
+    @property
+    def alt(self):
+        """What the still picture shows."""
+        stable = RK4.is_stable(self.robot.eigenvalues, self.dt)
+        return (
+            f"The region of absolute stability of RK4 and the robot's modes at a step of "
+            f"{1000 * self.dt:g} ms, which is {'stable' if stable else 'unstable'}."
+        )
+
+    @property
+    def scheme(self):
+        """What is typed, as a `Scheme`; the order is that of the conditions, 5 at most.
+
+        Raises
+        ------
+        ValueError
+            If it is not consistent, or before anything was shown.
+        """
+        if not self.numbers:
+            raise ValueError("numbers must come from the table: display the workshop first")
+        return Scheme(**self.numbers)
+
+    def _state(self):
+        return super()._state() | {"v": self.v, "dt": self.dt, "tableau": {}, "kept": {}}
+
+    def _draw(self):
+        with plt.style.context("suspension.figures.report"):
+            figure, ax = plt.subplots(figsize=(7.2, 4.2))
+            plot_stability(RK4, self.robot.eigenvalues, [self.dt], (-6, 4, -4.5, 4.5), ax=ax)
+        return svg(figure)
+
+
+def longest_of_order_two(eigenvalues):
+    """The longest stable step of an explicit method with three stages and order 2, s.
+
+    Its stability function is ``1 + z + z^2 / 2 + kappa z^3``, and kappa is free.
+
+    Parameters
+    ----------
+    eigenvalues : array_like
+        1/s.
+    """
+
+    def limit(alpha):
+        a = [[0, 0, 0], [alpha, 0, 0], [0, 1 / 2, 0]]
+        return Scheme("", 2, a, [0, 0, 1], [0, alpha, 1 / 2]).max_stable_dt(eigenvalues)
+
+    tried = np.linspace(0, 1, 201)
+    best = tried[np.argmax([limit(alpha) for alpha in tried])]
+    ends = (best - tried[1], best + tried[1])
+    found = minimize_scalar(lambda alpha: -limit(alpha), bounds=ends, method="bounded")
+    return float(max(limit(best), -found.fun))
+
+
+def workshop_script():
+    """The script, a classic one, that brings every workshop of a page to life."""
+    return f"(() => {{\n{bundle(PAGE, 'workshop_page')}}})();\n"
+
+
+def workshop_style():
+    """The style sheet of a workshop, besides that of all live pictures."""
+    return without_comments((PAGE / "workshop.css").read_text(encoding="utf-8"))
