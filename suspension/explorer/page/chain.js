@@ -45,6 +45,7 @@ export function renderChain(model, el) {
       "aria-label":
         "The readings. The arrow keys left and right choose one, up and down move it, with Shift ten times as far; Delete takes it out, Ctrl+Z takes a step back.",
     }),
+    legend = make(root, "p", "se-key"),
     texts = make(root, "div", "se-texts"),
     tables = makeTables();
   let at = null, // the chosen reading
@@ -113,11 +114,15 @@ export function renderChain(model, el) {
   const actions = [
     ["Undo", history.undo, () => (history.canUndo() ? "" : "Nothing is changed yet")],
     ["Redo", history.redo, () => (history.canRedo() ? "" : "Nothing was taken back")],
-    ["Delete", remove, () => (at === null ? "Choose a reading first" : without() && `It stays: ${without()}`)],
+    [
+      "Delete",
+      remove,
+      () => (at === null ? "Choose a reading first" : without() && `It stays: ${without()}`),
+    ],
     ["Add an outlier", add, () => whyNot([...readings(), [0, 0]], most)],
     [`Preload −${show(preload)} N`, () => shift(-preload), () => ""],
     [`Preload +${show(preload)} N`, () => shift(preload), () => ""],
-    ["As measured", reset, () => (JSON.stringify(readings()) === JSON.stringify(start) ? "They are" : "")],
+    ["Reset", reset, () => (JSON.stringify(readings()) === JSON.stringify(start) ? "They are" : "")],
   ].map(([name, act, hindered]) => {
     const tool = button(tools, name);
     tool.addEventListener("click", act);
@@ -234,10 +239,7 @@ export function renderChain(model, el) {
     const [low, high] = [Math.min(0, ...seen), Math.max(0, ...seen)],
       least = isLarge ? 4 * first.scatter || 0.01 * largest : 0,
       reach = Math.max(isLarge ? 1.5 * Math.max(-low, high) : 0.2 * (high - low), least);
-    view = [
-      [Math.min(0, ...x), Math.max(...x)],
-      isLarge ? [-reach, reach] : [low - reach, high + reach],
-    ];
+    view = [[Math.min(0, ...x), Math.max(...x)], isLarge ? [-reach, reach] : [low - reach, high + reach]];
   }
 
   function drawReadings(p, w, h) {
@@ -326,7 +328,8 @@ export function renderChain(model, el) {
       p.stroke("region", 2);
       p.line(px(fit.k), top, px(fit.k), bottom);
     });
-    for (const { v } of facts.asked) p.text(`${show(v)} m/s`, right - 4, py(v) - 5, { align: "right", halo: true });
+    for (const { v } of facts.asked)
+      p.text(`${show(v)} m/s`, right - 4, py(v) - 5, { align: "right", halo: true });
   }
 
   // ---- what one reads
@@ -340,9 +343,18 @@ export function renderChain(model, el) {
       return make(table, "tbody", "");
     };
     const percent = `${show(100 * facts.level, 2)} %`,
-      verdicts = tableIn(make(stage, "div", "se-verdicts"), "Asked speeds", ["speed", "contact", "lost with confidence"]),
+      verdicts = tableIn(make(stage, "div", "se-verdicts"), "Asked speeds", [
+        "speed",
+        "contact",
+        "lost with confidence",
+      ]),
       line = make(texts, "p", ""),
-      coefficients = tableIn(texts, "Coefficients", ["", "estimate", `alone, ${percent}`, `jointly, ${percent}`]),
+      coefficients = tableIn(texts, "Coefficients", [
+        "",
+        "estimate",
+        `alone, ${percent}`,
+        `jointly, ${percent}`,
+      ]),
       speed = make(texts, "p", ""),
       speeds = tableIn(texts, "Critical speeds", ["at k", "in the interval of k", "exists"]);
     return { verdicts, line, coefficients, speed, speeds };
@@ -358,6 +370,11 @@ export function renderChain(model, el) {
       });
     });
   }
+
+  write(
+    legend,
+    `${facts.synthetic ? "The readings are synthetic, made for this book. " : ""}Green: the fit with its band, the ellipse, the stiffness with its interval. Dashed grey: the same with the readings as they came. The dot in the ellipse's picture is (0, 0), filled if it lies inside; the boxes are the joint intervals and those of one coefficient alone.`,
+  );
 
   function update() {
     now = follow(readings(), facts, branches);

@@ -12,7 +12,11 @@ function factor(columns, forces) {
   columns.forEach((column, j) => {
     const q = [...column];
     R.push([0, 0, 0]);
-    for (let pass = 0; pass < 2; pass++) // the second takes what roundoff has left
+    for (
+      let pass = 0;
+      pass < 2;
+      pass++ // the second takes what roundoff has left
+    )
       for (let i = 0; i < j; i++) {
         const part = dot(Q[i], q);
         R[i][j] += part;
@@ -61,7 +65,8 @@ export function fitReadings(readings, facts) {
     V = inverse.map((row) => inverse.map((other) => scatter ** 2 * dot(row, other))),
     errors = V.map((row, j) => Math.sqrt(row[j])),
     quantile = (name) => facts.quantiles[name][free - 1],
-    intervals = (name) => beta.map((b, j) => [b - quantile(name) * errors[j], b + quantile(name) * errors[j]]);
+    intervals = (name) =>
+      beta.map((b, j) => [b - quantile(name) * errors[j], b + quantile(name) * errors[j]]);
   const isExact = Math.max(...left.map(Math.abs)) <= facts.roundoff[0] * largest;
   const fit = {
     ...{ beta, errors, scatter, free, V, isExact, region: quantile("region"), alone: intervals("t") },
@@ -71,7 +76,18 @@ export function fitReadings(readings, facts) {
     force: (at) => beta[0] + at * (beta[1] + at * beta[2]),
     band(at) {
       const row = [1, at, at * at];
-      return quantile("t") * scatter * Math.hypot(...[0, 1, 2].map((j) => dot(inverse.map((r) => r[j]), row)));
+      return (
+        quantile("t") *
+        scatter *
+        Math.hypot(
+          ...[0, 1, 2].map((j) =>
+            dot(
+              inverse.map((r) => r[j]),
+              row,
+            ),
+          ),
+        )
+      );
     },
   };
   fit.interval = fit.alone[1].map((b) => b / facts.delta_max);
@@ -147,9 +163,18 @@ function withinTable({ k, interval }, { k: [least, most], widest }) {
 /** Every critical speed while the stiffness goes through its interval, in order of speed. */
 export function criticalSpeeds(fit, branches, facts) {
   if (!(fit.k >= facts.k[0] && fit.k <= facts.k[1])) return null;
-  const { ends: [low, high], isWhole } = withinTable(fit, facts),
+  const {
+      ends: [low, high],
+      isWhole,
+    } = withinTable(fit, facts),
     found = [];
-  for (const { ends: [first, last], born, dies, speed, nodes } of branches) {
+  for (const {
+    ends: [first, last],
+    born,
+    dies,
+    speed,
+    nodes,
+  } of branches) {
     if (high < first || low > last) continue;
     const inside = nodes.filter(([k]) => low <= k && k <= high).map(([, v]) => v),
       met = [...inside, speed(low), speed(high)].filter((v) => v !== null);

@@ -9,13 +9,24 @@ const SEEN = 5e-5; // what lies beyond the table is told from here on: a confide
 /** A number with its unit. */
 const of = (x, unit, digits = 3) => `${show(x, digits)}${SPACE}${unit}`;
 
-/** Two ends, with the decimals that their distance deserves. */
+/** Two given numbers. */
+const span = ([low, high], unit) => `${show(low)} to ${of(high, unit)}`;
+
+/** Two ends, with the decimals that their distance deserves, and more if the nearer to zero needs them. */
 export function range([low, high], unit = "") {
-  const size = Math.max(Math.abs(low), Math.abs(high)),
-    decimals = high > low ? 1 - Math.floor(Math.log10(high - low)) : 3 - Math.ceil(Math.log10(size || 1));
+  const [near, far] = [low, high].map(Math.abs).sort((a, b) => a - b),
+    digit = (x) => 1 - Math.ceil(Math.log10(x)),
+    wide = high > low ? 1 - Math.floor(Math.log10(high - low)) : 2 + digit(far || 1),
+    decimals = Math.max(wide, near > 0 ? Math.min(digit(near), wide + 2) : wide);
   const written = (x) =>
-    Math.abs(decimals) > 9 ? show(x, 3) : (Math.round(x * 10 ** decimals) / 10 ** decimals).toFixed(Math.max(decimals, 0));
-  const [from, to] = [low, high].map((x) => written(x).replace(/^-(?=0\.?0*$)/, "").replace("-", "−"));
+    Math.abs(decimals) > 9
+      ? show(x)
+      : (Math.round(x * 10 ** decimals) / 10 ** decimals).toFixed(Math.max(decimals, 0));
+  const [from, to] = [low, high].map((x) =>
+    written(x)
+      .replace(/^-(?=[0.]*$)/, "")
+      .replace("-", "−"),
+  );
   return `${from === to ? from : `${from} to ${to}`}${unit && SPACE + unit}`;
 }
 
@@ -26,7 +37,8 @@ export function confidence(p) {
   return `${(100 * p).toFixed(2)}${SPACE}%`;
 }
 
-const count = (n) => ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"][n] ?? `${n}`;
+const count = (n) =>
+  ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"][n] ?? `${n}`;
 const capital = (words) => words[0].toUpperCase() + words.slice(1);
 const percent = (part) => `${show(100 * part, 2)}${SPACE}%`;
 
@@ -35,7 +47,8 @@ export function tellStiffness({ why, fit }, { level }) {
   if (why) return `These readings tell no stiffness: ${why}.`;
   if (!(fit.k > 0))
     return `The slope at zero is ${of(fit.k, "N/m")}: no spring pushes less when it is pressed more. Nothing follows for the robot.`;
-  if (fit.isExact) return `k = ${of(fit.k, "N/m")}. The readings lie on the parabola: every interval is a point.`;
+  if (fit.isExact)
+    return `k = ${of(fit.k, "N/m")}. The readings lie on the parabola: every interval is a point.`;
   const beyond = fit.interval[0] > 0 ? "" : " Even the sign is open.";
   return `k = ${of(fit.k, "N/m")}, with ${percent(level)} confidence ${range(fit.interval, "N/m")}.${beyond}`;
 }
@@ -62,24 +75,26 @@ export function tellLine({ fit }, { level }) {
 /** Which critical speeds there are, and whether the readings can tell. */
 export function tellSpeeds({ fit, critical }, { k, v, error }) {
   if (!(fit?.k > 0)) return "";
-  const table = `${range(k)}${SPACE}N/m`;
-  if (!critical) return `The table of critical speeds goes from ${table}. This stiffness is beyond it, and nothing is extrapolated.`;
+  const table = span(k, "N/m");
+  if (!critical)
+    return `The table of critical speeds goes from ${table}. This stiffness is beyond it, and nothing is extrapolated.`;
   const { speeds, isWhole } = critical,
     open = speeds.filter(({ born, dies }) => born || dies).length,
     told = [];
-  if (!speeds.length) told.push(`There is no critical speed from ${range(v, "m/s")}.`);
-  else if (!open)
+  const all =
+      ["", "The one critical speed", "Both critical speeds"][speeds.length] ??
+      `All ${count(speeds.length)} critical speeds`,
+    some = open < speeds.length ? `${capital(count(open))} of ${count(speeds.length)} critical speeds` : all;
+  if (!speeds.length) told.push(`There is no critical speed from ${span(v, "m/s")}.`);
+  else if (open)
     told.push(
-      speeds.length > 1
-        ? `All ${count(speeds.length)} critical speeds exist for every stiffness of the interval.`
-        : "The one critical speed exists for every stiffness of the interval.",
+      `${some} ${open > 1 ? "come or go" : "comes or goes"} within the interval of k: whether ${open > 1 ? "they exist" : "it exists"} cannot be told from these readings.`,
     );
-  else
-    told.push(
-      `${capital(count(open))} of ${count(speeds.length)} critical speeds ${open > 1 ? "come or go" : "comes or goes"} within the interval of k: whether ${open > 1 ? "they exist" : "it exists"} cannot be told from these readings.`,
-    );
-  if (!isWhole) told.push(`The interval of k reaches beyond the table, ${table}; what happens there is not told.`);
-  if (speeds.length) told.push(`Speeds are read from a table; no place tried was off by more than ${percent(error)}.`);
+  else told.push(`${all} ${speeds.length > 1 ? "exist" : "exists"} for every stiffness of the interval.`);
+  if (!isWhole)
+    told.push(`The interval of k reaches beyond the table, ${table}; what happens there is not told.`);
+  if (speeds.length)
+    told.push(`Speeds are read from a table; no place tried was off by more than ${percent(error)}.`);
   return told.join(" ");
 }
 
@@ -128,7 +143,12 @@ const ends = { pair: "it meets another and both vanish", range: "it leaves the r
 
 /** The coefficients with their intervals. */
 export const coefficientRows = ({ fit }) =>
-  (fit?.beta ?? []).map((b, j) => [`β${"₀₁₂"[j]}`, of(b, "N"), range(fit.alone[j], "N"), range(fit.joint[j], "N")]);
+  (fit?.beta ?? []).map((b, j) => [
+    `β${"₀₁₂"[j]}`,
+    of(b, "N"),
+    range(fit.alone[j], "N"),
+    range(fit.joint[j], "N"),
+  ]);
 
 /** The reading that is chosen. */
 export function tellReading(readings, at, { fit }) {
