@@ -1,10 +1,11 @@
 """Sphinx extension: explorers in built pages, without a widget manager.
 
 An explorer's cell gives HTML with native controls (`suspension.explorer.ExplorerBox.html`), a
-prediction's its axes, an instrument's its still picture. Pages that hold one get its script and the style sheet; the widgets, which
-only a kernel's front end could use, and their state are left out. The directive ``{explorer}
-name`` shows an explorer that a notebook has named, on another page, and links like
-``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the page they point to.
+prediction's its axes, an instrument's of the laboratory its still picture. Pages that hold one get
+its script and the style sheet; the widgets, which only a kernel's front end could use, and their
+state are left out. The directive ``{explorer} name`` shows an explorer that a notebook has named,
+on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the
+page they point to.
 """
 
 import json

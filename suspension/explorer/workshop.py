@@ -8,6 +8,7 @@ import numpy as np
 import traitlets
 from scipy.optimize import minimize_scalar
 
+from suspension import _checks
 from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.settings import REFERENCE
@@ -15,6 +16,8 @@ from suspension.explorer.still import svg
 from suspension.explorer.tables import shape_of
 from suspension.figures import plot_stability
 from suspension.least_force import distance_over
+from suspension.road import GaussianBump
+from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 
 __all__ = ["KNOWN", "Workshop", "workshop_script", "workshop_style"]
@@ -41,7 +44,6 @@ KNOWN = {
     "Radau IIA, order 3": ("5/12 -1/12; 3/4 1/4", "3/4 1/4"),
     "Lobatto IIIA, order 4": ("0 0 0; 5/24 1/3 -1/24; 1/6 2/3 1/6", "1/6 2/3 1/6"),
 }
-START = "RK4"
 SPEEDS = (0.25, 10.0)  # m/s, what the slider offers
 STEPS = (0.001, 0.2)  # s
 
@@ -77,15 +79,19 @@ class Workshop(Instrument):
     dt = traitlets.Float().tag(sync=True)
 
     def __init__(self, robot, bump, v=1.2, dt=0.02):
-        self.robot = robot
+        self.robot = _checks.instance("robot", robot, Robot)
+        _checks.instance("bump", bump, GaussianBump)
+        v, dt = _within("v", v, SPEEDS), _within("dt", dt, STEPS)
+        schemes = [
+            {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
+            for name, (a, b) in KNOWN.items()
+        ]
+        start = next(scheme for scheme in schemes if scheme["name"] == RK4.name)
         distance = distance_over(robot, bump)
         frame, table = shape_of(bump, 0, 0)
         super().__init__(
             facts={
-                "schemes": [
-                    {"name": name, "a": [row.split() for row in a.split(";")], "b": b.split()}
-                    for name, (a, b) in KNOWN.items()
-                ],
+                "schemes": schemes,
                 "ranges": {"v": SPEEDS, "dt": STEPS},
                 "robot": {
                     "A": robot.A.tolist(),
@@ -102,6 +108,12 @@ class Workshop(Instrument):
                 "road": frame | {"table": base64.b64encode(table.astype("<f8").tobytes()).decode()},
                 "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
                 "traded": longest_of_order_two(robot.eigenvalues),
+            },
+            tableau={
+                "a": start["a"],
+                "b": start["b"],
+                "c": [""] * len(start["b"]),
+                "follows": True,
             },
             v=v,
             dt=dt,
@@ -130,13 +142,19 @@ class Workshop(Instrument):
         return Scheme(**self.numbers)
 
     def _state(self):
-        return super()._state() | {"v": self.v, "dt": self.dt, "tableau": {}, "kept": {}}
+        own = {name: getattr(self, name) for name in ("tableau", "kept", "v", "dt")}
+        return super()._state() | own
 
     def _draw(self):
         with plt.style.context("suspension.figures.report"):
             figure, ax = plt.subplots(figsize=(7.2, 4.2))
             plot_stability(RK4, self.robot.eigenvalues, [self.dt], (-6, 4, -4.5, 4.5), ax=ax)
         return svg(figure)
+
+
+def _within(name, value, ends):
+    low, high = ends
+    return _checks.number(name, value, f"from {low:g} to {high:g}", lambda x: low <= x <= high)
 
 
 def longest_of_order_two(eigenvalues):

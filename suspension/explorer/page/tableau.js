@@ -113,7 +113,14 @@ function nameOf(tree) {
     others = names.filter((name) => name !== "c");
   const power = leaves > 1 ? `c${RAISED[leaves]}` : leaves ? "c" : "";
   const twice = others.length === 2 && others[0] === others[1];
-  return power + (twice ? `(${others[0]})²` : others.length > 1 || (power && others.length) ? others.map((o) => `(${o})`).join("") : others.join(""));
+  return (
+    power +
+    (twice
+      ? `(${others[0]})²`
+      : others.length > 1 || (power && others.length)
+        ? others.map((o) => `(${o})`).join("")
+        : others.join(""))
+  );
 }
 function inner(tree) {
   const name = nameOf(tree);

@@ -95,7 +95,8 @@ export function renderWorkshop(model, el) {
   /** What is typed, if it is a table at all. */
   function current() {
     const { a, b, c, follows } = model.get("tableau") ?? {},
-      isRow = (row) => Array.isArray(row) && row.length === b.length && row.every((x) => typeof x === "string");
+      isRow = (row) =>
+        Array.isArray(row) && row.length === b.length && row.every((x) => typeof x === "string");
     if (!Array.isArray(b) || !b.length || b.length > MOST_STAGES) return typed(start);
     if (![b, c, ...(a ?? [])].every(isRow) || a?.length !== b.length) return typed(start);
     return { a, b, c, follows: follows !== false };
@@ -110,7 +111,7 @@ export function renderWorkshop(model, el) {
     )?.name ?? "Your method";
 
   const root = make(el, "div", "suspension-explorer se-bench"),
-    said = make(root, "p", "se-headline", { role: "status" });
+    said = make(root, "p", "se-said", { role: "status" });
   const body = make(root, "div", "se-body"),
     sheet = make(body, "div", "se-sheet"),
     views = make(body, "div", "se-views");
@@ -203,7 +204,9 @@ export function renderWorkshop(model, el) {
     chosen = name;
     update();
   }
-  slider.addEventListener("input", () => change(chosen, plain(middle + Number(slider.value), 4), `turn ${chosen}`));
+  slider.addEventListener("input", () =>
+    change(chosen, plain(middle + Number(slider.value), 4), `turn ${chosen}`),
+  );
   slider.addEventListener("change", () => {
     middle = null;
     touched = "";
@@ -239,7 +242,13 @@ export function renderWorkshop(model, el) {
       if (condition.order !== order) return;
       const item = make(items, "li");
       drawTree(item, condition.tree);
-      make(item, "span", "se-sum", {}, `${condition.name} = 1${condition.density > 1 ? `/${condition.density}` : ""}`);
+      make(
+        item,
+        "span",
+        "se-sum",
+        {},
+        `${condition.name} = 1${condition.density > 1 ? `/${condition.density}` : ""}`,
+      );
       marks[i] = { item, words: make(item, "span", "se-mark") };
     });
   }
@@ -293,7 +302,9 @@ export function renderWorkshop(model, el) {
       words = make(figure, "p", "se-words");
     return { canvas, words, w: 0, h: 0 };
   };
-  const pictures = Object.fromEntries(["region", "axis", "forces", "work"].map((name) => [name, picture(name)]));
+  const pictures = Object.fromEntries(
+    ["region", "axis", "forces", "work"].map((name) => [name, picture(name)]),
+  );
 
   const game = make(root, "section", "se-puzzles");
   make(game, "h4", "", { id: `${id}-puzzles` }, "Puzzles");
@@ -400,11 +411,11 @@ export function renderWorkshop(model, el) {
     write(rows.R, Q === "1" ? P : `(${P}) / (${Q})`);
     write(rows.stability, stabilityWords(good));
     write(rows.limit, limitWords(good));
-    CONDITIONS.forEach(({ density }, i) => {
+    CONDITIONS.forEach((_, i) => {
       const { item, words } = marks[i],
         holds = good.holds[i];
       item.classList.toggle("se-holds", holds);
-      write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}, not ${show(1 / density, 4)}`);
+      write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}`);
     });
     puzzles(good, facts.traded).forEach(({ isWon, words }, i) => {
       riddles[i].item.classList.toggle("se-won", isWon);
@@ -440,7 +451,9 @@ export function renderWorkshop(model, el) {
       region: `λΔt at Δt = ${ms(dt)}: ${points().filter((z) => !isStable(z)).length || "none"} of ${robot.modes.length} modes ${grows ? "outside, where swings grow" : "outside"}.`,
       axis: swingWords(good.R, fastestTurn()),
       forces: workWords(good, tried, load),
-      work: rival ? raceWords(other.name, tried, rival) : "Keep a method to compare, and two race at equal work.",
+      work: rival
+        ? raceWords(other.name, tried, rival)
+        : "Keep a method to compare, and two race at equal work.",
     };
     for (const [name, text] of Object.entries(words)) write(pictures[name].words, text);
     const labels = {
@@ -475,7 +488,9 @@ export function renderWorkshop(model, el) {
     for (const [name, { canvas, w, h }] of Object.entries(pictures)) {
       if (w && h) draw[name](begin(canvas, w, h, colours));
     }
-    root.dispatchEvent(new CustomEvent("painted", { bubbles: true, detail: cost + performance.now() - begun }));
+    root.dispatchEvent(
+      new CustomEvent("painted", { bubbles: true, detail: cost + performance.now() - begun }),
+    );
     cost = 0;
   }
 

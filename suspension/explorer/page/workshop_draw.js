@@ -3,7 +3,7 @@
 import { clamp, show, ticks, trace } from "./pen.js";
 import { growthAt } from "./tableau.js";
 
-const CELLS = 90; // of the region's picture, across
+const CELLS = 80; // of the region's picture, across
 const TALL = 4.5; // of the region's window, from its middle, at least
 export const PHASES = 3; // of the imaginary axis, rad
 
@@ -159,7 +159,12 @@ export function drawAxis(p, R, other, mark) {
   for (const y of ticks(0, PHASES, 3)) p.text(show(y), px(y), bottom + 15, { align: "center" });
   p.text("y", right, bottom + 29, { align: "right" });
   p.inside(left, top, right - left, bottom - top, () => {
-    for (const [R_, pale] of other ? [[other, true], [R, false]] : [[R, false]]) {
+    for (const [R_, pale] of other
+      ? [
+          [other, true],
+          [R, false],
+        ]
+      : [[R, false]]) {
       const { sizes, phases } = alongAxis(R_),
         at = (i) => px((PHASES * i) / (sizes.length - 1));
       p.g.globalAlpha = pale ? 0.4 : 1;
@@ -179,7 +184,8 @@ export function drawForces(p, tried, other, { distance }) {
     [left, right, top, bottom] = [34, w - 8, 40, h - 33],
     { run, exact } = tried;
   let [low, high] = [0, 0];
-  for (const N of exact.run.N) for (const x of N.subarray(0, exact.run.J + 1)) [low, high] = [Math.min(low, x), Math.max(high, x)];
+  for (const N of exact.run.N)
+    for (const x of N.subarray(0, exact.run.J + 1)) [low, high] = [Math.min(low, x), Math.max(high, x)];
   const room = 0.15 * (high - low);
   [low, high] = [low - room, high + room];
   const px = (X) => left + ((right - left) * X) / distance,
@@ -191,15 +197,14 @@ export function drawForces(p, tried, other, { distance }) {
     { words: "exact", colour: "soft", width: 6, alpha: 0.4 },
     ...(other ? [{ words: "compared", colour: "ink", width: 1.5, dash: [4, 3] }] : []),
   ]);
-  for (const N of ticks(low, high, 4)) {
+  for (const N of ticks(low, high, 7)) {
     p.stroke(N === 0 ? "soft" : "line", 1);
     p.line(left, py(N), right, py(N));
     p.text(show(N), left - 5, py(N) + 4, { align: "right" });
   }
   for (const X of ticks(0, distance, 5)) p.text(show(X), px(X), bottom + 15, { align: "center" });
   p.text("X (m)", right, bottom + 29, { align: "right" });
-  const curve = ({ N, dt, v, J }, i) =>
-    trace(N[i].subarray(0, J + 1), (n) => px(v * dt * n), py, 2 * w);
+  const curve = ({ N, dt, v, J }, i) => trace(N[i].subarray(0, J + 1), (n) => px(v * dt * n), py, 2 * w);
   p.inside(left, top, right - left, bottom - top, () => {
     for (const [i, colour] of ["rear", "front"].entries()) {
       p.g.globalAlpha = 0.35;
@@ -220,7 +225,8 @@ export function drawWork(p, curves, dot) {
     [left, right, top, bottom] = [38, w - 8, 40, h - 33],
     [x0, x1] = [8, 12288];
   const px = (x) => left + ((right - left) * Math.log(x / x0)) / Math.log(x1 / x0),
-    py = (y) => bottom - ((bottom - top) * Math.log(clamp(y, LEAST / 10, 10 * MOST) / LEAST)) / Math.log(MOST / LEAST);
+    py = (y) =>
+      bottom - ((bottom - top) * Math.log(clamp(y, LEAST / 10, 10 * MOST) / LEAST)) / Math.log(MOST / LEAST);
   p.text("Largest error of a force (N)", 0, 13, { colour: "ink", bold: true });
   p.legend(left, 31, right, [
     { words: "yours", colour: "rear", width: 2 },

@@ -3,7 +3,7 @@
 import { countSteps, makeMemory, makeRoad, simulate } from "./model.js";
 
 const COARSEST = 3, // powers of two: steps of the curve of error against work
-  FINEST = 11;
+  FINEST = 10;
 
 /** The largest difference of both forces from the exact ones, where the run has samples, N. */
 function differ(run, exact, each) {

@@ -118,13 +118,15 @@ export function puzzles(facts, traded) {
   const { stages, order, kind, limit, R, holds, isAStable } = facts;
   const needs = (n, p) => {
     if (stages !== n) return `Your table has ${stages} ${stages === 1 ? "stage" : "stages"}.`;
-    if (order < p) return `Order ${order} so far: ${CONDITIONS[holds.indexOf(false)].name} is not what it should be.`;
+    if (order < p)
+      return `Order ${order} so far: ${CONDITIONS[holds.indexOf(false)].name} is not what it should be.`;
     return facts.strays.length ? "c must be the row sums." : "";
   };
   const first = () => {
     const missing = needs(3, 3);
     if (missing) return [false, missing];
-    if (limit === Infinity) return [true, "Won: no step is too long. A stage that uses itself makes R a fraction."];
+    if (limit === Infinity)
+      return [true, "Won: no step is too long. A stage that uses itself makes R a fraction."];
     if (kind === "explicit")
       return [
         false,
@@ -136,8 +138,12 @@ export function puzzles(facts, traded) {
     const missing = needs(3, 2);
     if (missing) return [false, missing];
     if (kind !== "explicit") return [false, `Explicit, please: yours is ${kind}.`];
-    if (limit >= CLOSE * traded) return [true, `Won: ${ms(limit)} of ${ms(traded)}, the longest there is. Order 3 would cost this.`];
-    return [false, `${ms(limit)} so far; the longest there is is ${ms(traded)}. Only the factor of z³ in R is free.`];
+    if (limit >= CLOSE * traded)
+      return [true, `Won: ${ms(limit)} of ${ms(traded)}, the longest there is. Order 3 would cost this.`];
+    return [
+      false,
+      `${ms(limit)} so far; the longest there is is ${ms(traded)}. Only the factor of z³ in R is free.`,
+    ];
   };
   const third = () => {
     if (kind !== "explicit")
