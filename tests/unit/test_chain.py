@@ -195,7 +195,8 @@ def test_readings_that_cannot_be_judged_are_refused_by_the_page(tmp_path):
         [[0, 0], [0, 0.1], [1, 13], [1, 13.1]],
         np.column_stack([x, 13 * x]).tolist(),
     ]
-    (tmp_path / "given.json").write_text(json.dumps({"facts": facts, "sets": sets, "students": []}))
+    given = {"facts": facts, "sets": sets, "students": []}
+    (tmp_path / "given.json").write_text(json.dumps(given), encoding="utf-8")
     told = json.loads(run_in_node(tmp_path, ASK))["told"]
     assert all(set(one) == {"why"} for one in told)
     assert [one["why"].split()[0] for one in told] == ["with", "a", "there"]
