@@ -132,7 +132,7 @@ def test_a_reading_is_dragged_and_everything_follows(visit):
     assert told(tab) == before
 
 
-def test_what_is_told_is_what_a_touch_beside_a_reading_left_alone(visit):
+def test_a_finger_moves_a_reading_by_a_clear_pull_and_scrolls_beside_it(visit):
     tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     pad(tab).evaluate("pad => scrollBy(0, pad.getBoundingClientRect().top - 200)")
     before, scrolled = told(tab), tab.evaluate("scrollY")
@@ -191,7 +191,7 @@ def test_readings_are_taken_out_down_to_four_and_it_is_said_why_not_further(visi
     assert told(tab) == widths[-1]
 
 
-def test_a_preload_leaves_the_stiffness_and_the_line_does_not_stay(visit):
+def test_a_preload_leaves_the_stiffness_and_contradicts_the_line(visit):
     tab = visit()
     before, line = told(tab), tab.locator(f"{BOX} .se-texts p").first.inner_text()
     for _ in range(3):

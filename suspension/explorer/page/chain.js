@@ -350,7 +350,7 @@ export function renderChain(model, el) {
       ]),
       line = make(texts, "p", ""),
       coefficients = tableIn(texts, "Coefficients", [
-        "",
+        "name",
         "estimate",
         `alone, ${percent}`,
         `jointly, ${percent}`,
