@@ -51,7 +51,8 @@ def farthest(stiffest, strongest, asked):
     other = quantity(stiffest.robot.c1, "N s/m", 4)
     return (
         f"**In a region that ends at {k} and {c}:** no stiffer spring and no stronger damper of "
-        f"this map keeps contact at {speed_list(asked)}. Those springs need dampers of {other}."
+        f"this map keeps contact at {speed_list(asked)}. With the stiffest "
+        f"springs the dampers must be of {other}."
     )
 
 
@@ -175,19 +176,21 @@ def between(candidates):
 
 
 def robust_table(least):
-    """The least margin at the asked speeds when something is not as it was thought.
+    """The least margins when something is not as it was thought, and who keeps contact.
 
     Parameters
     ----------
     least : dict of str to dict of str to float
         For each case by name, and each suspension, N.
     """
-    return table(
-        [
-            {"if": case, **{name: _margin(m) for name, m in margins.items()}}
-            for case, margins in least.items()
-        ]
-    )
+    rows = [
+        {"if": case, **{name: _margin(m) for name, m in margins.items()}}
+        for case, margins in least.items()
+    ]
+    names = next(iter(least.values()))
+    safe = [name for name in names if all(m[name] > -SHOWN for m in least.values())]
+    note = f"In every case contact is kept by: **{join(safe, none='none of them')}**."
+    return f"{table(rows)}\n\n{note}"
 
 
 def drive_links(candidates, reach, v):

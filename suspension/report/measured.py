@@ -386,9 +386,9 @@ def sign_table(study):
         "In a row: what is not known about the model. In a cell: what is not known about its "
         "parameters. *Kept*: in all draws, with the 95 % interval of the margin; *lost*: in all "
         "draws; else the share of draws in which contact is lost. "
-        f"All of {share.n} draws leave up to {percent(type(share)(0, share.n).high)} of doubt, the "
-        "95 % bound of as many independent ones. Signed is what every law says with less than "
-        f"2.5{SPACE}% of doubt. No law needs a weight for that."
+        f"{share.n} draws that agree leave up to {percent(type(share)(0, share.n).high)} of doubt, "
+        "the 95 % bound for as many independent ones. Signed is what every law says with less than "
+        f"2.5{SPACE}% of doubt."
     )
     return f"{table(rows)}\n\n{note}"
 

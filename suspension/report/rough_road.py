@@ -71,7 +71,7 @@ def flights(names, speeds, linear, found, longer):
             below = percent(1 - 0.05 ** (1 / len(flown)))
             lines.append(
                 f"**“{name}” flew on none of {len(flown)} roads.** With 95{SPACE}% confidence it "
-                f"flies on less than {below} of such roads; so many roads say no more."
+                f"flies on less than {below} of such roads; that many roads can tell no more."
             )
             continue
         flies = flown.any(axis=0)

@@ -117,7 +117,7 @@ def asked(found, speeds):
 
 
 def cut(found):
-    """Where the line of the bump crosses the curve, and what holds between."""
+    """Where the line of the bump crosses the curve."""
     low, high = (f"{v:g}" for v in found.edges[[0, -1]])
     crossings = len(found.critical)
     if not crossings:
@@ -131,7 +131,7 @@ def cut(found):
     what = "the critical speed" if crossings == 1 else "every critical speed there is"
     return (
         f"From {low} to {high}{SPACE}m/s the bump's line crosses the curve {times}, at "
-        f"{speeds}{SPACE}m/s: {what}. Contact is {ranges(found)}."
+        f"{speeds}{SPACE}m/s: {what}."
     )
 
 
@@ -263,7 +263,7 @@ def chart_figure(zetas, own, found, speeds):
         f"The chart. Each curve is the highest bump that a robot crosses with contact; "
         f"{count(len(zetas), 'damping')} with $\\zeta$ up to {number(max(zetas), 2)}, ours "
         f"({number(own, 2)}) drawn thick. The bump of the problem is the line across, "
-        f"stressed where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
+        f"thick where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
         f"{count(crossed, 'critical speed')}.",
         "Highest bump against speed on logarithmic axes, a curve for each damping. All come down "
         "together from the left; to the right they rise, and the more damping there is, the "

@@ -139,7 +139,7 @@ def heaviest_caption(asked):
     """Caption of the mass that a wheel pair may have; `asked` speeds in m/s."""
     text = (
         "How heavy a wheel pair on a rigid tyre may be without leaving the ground. Below the curve "
-        "contact is kept, and where the field is blue to the top at any mass. Dashed: "
+        "contact is kept; where the field is blue up to the top, at any mass. Dashed: "
         f"{speed_list(asked)}."
     )
     alt = (
@@ -209,8 +209,8 @@ def energy_sentence(energy, landings):
     if not landings:
         return f"{words} No wheel lands on the way."
     return (
-        f"{words} Between its {count(len(landings), 'landing')} and the lift-offs that follow them "
-        f"the dampers turn {percent(sum(landing.heat for landing in landings) / heat)} of that."
+        f"{words} Of this heat {percent(sum(landing.heat for landing in landings) / heat)} arises "
+        f"between the {count(len(landings), 'landing')} and the lift-offs that follow them."
     )
 
 

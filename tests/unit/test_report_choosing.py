@@ -73,7 +73,7 @@ def test_sentences_about_any_spring_are_sound(k):
 
 def test_the_farthest_springs_and_dampers():
     text = plain(part.farthest(STIFFEST, Choice(SOFT, 1, 0), ASKED))
-    assert "ends at 280.0 N/m and 1.570 N s/m" in text and "need dampers of 1.970 N s/m" in text
+    assert "ends at 280.0 N/m and 1.570 N s/m" in text and "dampers must be of 1.970 N s/m" in text
     assert "**Nowhere**" in part.farthest(None, None, ASKED)
 
 
@@ -100,6 +100,13 @@ def test_after_a_loss_no_margin_is_told():
     assert "| contact | 277 | 1.57 | 1.05 | 0.30 |" in table and "16.0" in table and "44 %" in table
     lost = plain(part.robust_table({"thought": {"it": -24.58, "other": -0.001}}))
     assert "| thought | lost | 0.00 |" in lost
+
+
+def test_who_keeps_contact_in_every_case_is_told():
+    cases = {"as thought": {"one": 1.0, "other": 0.2}, "k less": {"one": 0.5, "other": -0.2}}
+    assert plain(part.robust_table(cases)).endswith("contact is kept by: **one**.")
+    cases["k more"] = {"one": -0.5, "other": 0.2}
+    assert plain(part.robust_table(cases)).endswith("contact is kept by: **none of them**.")
 
 
 def test_a_preload_that_the_readings_prove_is_told():

@@ -237,9 +237,9 @@ def test_shares_claim_no_more_than_the_draws_can_tell():
     table = plain(part.sign_table(study_of((5, 0.03), (5, -9))))
     assert "| 0.25 | kept, 4.95 to 5.05 N | kept, 4.95 to 5.05 N | **kept** |" in table
     assert "| 10 | 20 % lost | lost | **open** |" in table
-    assert "All of 128 draws leave up to 2.3 % of doubt" in table
+    assert "128 draws that agree leave up to 2.3 % of doubt" in table
     few = plain(part.sign_table(study_of((5,), (5,), asked=(1,), n=64)))
-    assert "All of 64 draws leave up to 4.6 % of doubt" in few and "**open**" in few
+    assert "64 draws that agree leave up to 4.6 % of doubt" in few and "**open**" in few
 
 
 @pytest.mark.parametrize(

@@ -66,7 +66,8 @@ def test_energy_is_told_with_its_landings():
     long = flight(1.2, samples=20001)
     found = landings(long, ROBOT, BUMP)
     words = part.energy_sentence(energy(long, ROBOT, BUMP), found)
-    assert "The road puts in 64" in words and "landings" in words
+    assert "The road puts in 64" in words and "arises between the" in words
+    assert "landings and the lift-offs" in words
     assert len(part.landing_table(found).splitlines()) == 2 + len(found)
     kept = flight(10)
     assert "No wheel lands" in part.energy_sentence(energy(kept, ROBOT, BUMP), ())

@@ -205,6 +205,18 @@ def test_random_tables_have_the_stability_function_and_limit_of_their_scheme(tmp
     assert {0.0, np.inf} & set(limits) and sum(0 < limit < np.inf for limit in limits) > 10
 
 
+def test_limits_without_any_damping_are_those_of_the_schemes(workshop, tmp_path):
+    modes = 1j * np.array([-38, -33, 33, 38])
+    schemes = workshop.facts["schemes"]
+    found = ask(tmp_path, [(scheme["a"], scheme["b"]) for scheme in schemes], modes)
+    limits = []
+    for answer in found:
+        numbers = (np.array(answer["numbers"][name]) for name in "abc")
+        limits.append(Scheme("", 1, *numbers).max_stable_dt(modes))
+        assert float(answer["limit"]) == pytest.approx(limits[-1], rel=PARITY)
+    assert {0.0, np.inf} <= set(limits) and min(np.abs(np.array(limits) - np.sqrt(8) / 38)) < 1e-12
+
+
 def test_damping_and_phase_along_the_imaginary_axis_are_those_of_r(known):
     for answer in known.values():
         a, b, c = (np.array(answer["numbers"][name]) for name in "abc")
@@ -243,7 +255,7 @@ def test_a_pole_that_cancels_is_none(tmp_path):
     assert not answer["isAStable"]
 
 
-@pytest.mark.parametrize("v, dt", [(0.25, 0.01), (1.2, 0.02), (10, 0.001)])
+@pytest.mark.parametrize("v, dt", [(0.25, 0.1), (1.2, 0.02), (10, 0.001)])
 def test_runs_are_those_of_simulate_and_the_closed_form(workshop, tmp_path, v, dt):
     tables = [(s["a"], s["b"]) for s in workshop.facts["schemes"]]
     found = ask(tmp_path, tables, ROBOT.eigenvalues, facts=workshop.facts, runs=[(v, dt)])
@@ -254,7 +266,7 @@ def test_runs_are_those_of_simulate_and_the_closed_form(workshop, tmp_path, v, d
         W = over_bump(ROBOT, BUMP, v, run.T)
         exact = normal_forces(ROBOT, BUMP, v, run.T, W)
         [page] = answer["runs"]
-        near(page["N"], run.N, PARITY)
+        near(np.array(page["N"], float), run.N, PARITY)  # large ones are written as integers
         near(page["exact"], exact, PARITY)
         error = np.abs(run.N - exact).max()
         assert page["error"] == pytest.approx(error, rel=1e-6, abs=PARITY * np.abs(exact).max())
@@ -292,7 +304,7 @@ def test_entries_are_read_as_one_writes_them(tmp_path):
 
 def test_puzzles_are_won_by_what_they_ask_for_alone(workshop, known, tmp_path):
     won = {name: [task["isWon"] for task in answer["puzzles"]] for name, answer in known.items()}
-    assert won["Lobatto IIIA, order 4"][0]
+    assert won["Lobatto IIIA, order 4"] == [True, False, False]
     assert not any(won["Kutta, order 3"]) and not any(won["RK4"])
     assert "all end at" in known["Kutta, order 3"]["puzzles"][0]["words"]
     assert not any(third for _, _, third in won.values())

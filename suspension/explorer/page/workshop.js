@@ -5,7 +5,7 @@ import { button, make, write } from "./dom.js";
 import { begin, plain, show } from "./pen.js";
 import { CONDITIONS, readEntry, rowSums, writeEntry } from "./tableau.js";
 import { coloursOf, onTheme } from "./theme.js";
-import { drawAxis, drawForces, drawRegion, drawWork } from "./workshop_draw.js";
+import { drawAxis, drawForces, drawRegion, drawWork, IN, slackAt } from "./workshop_draw.js";
 import { makeBench } from "./workshop_run.js";
 import {
   clampTo,
@@ -236,7 +236,7 @@ export function renderWorkshop(model, el) {
   const marks = [];
   for (let order = 1; order <= CONDITIONS.at(-1).order; order++) {
     const group = make(trees, "section"),
-      title = make(group, "h4", "", { id: `${id}-order-${order}` }, `Order ${order}`),
+      title = make(group, "p", "se-title", { id: `${id}-order-${order}` }, `Order ${order}`),
       items = make(group, "ul", "", { "aria-labelledby": title.id });
     CONDITIONS.forEach((condition, i) => {
       if (condition.order !== order) return;
@@ -307,12 +307,12 @@ export function renderWorkshop(model, el) {
   );
 
   const game = make(root, "section", "se-puzzles");
-  make(game, "h4", "", { id: `${id}-puzzles` }, "Puzzles");
+  make(game, "p", "se-title", { id: `${id}-puzzles` }, "Puzzles");
   const tasks = make(game, "ol", "", { "aria-labelledby": `${id}-puzzles` });
   const riddles = puzzles(examine(start.values, robot.modes), facts.traded).map(({ task }) => {
     const item = make(tasks, "li");
     make(item, "strong", "", {}, task);
-    return { item, words: make(item, "span", "se-verdict", { role: "status" }) };
+    return { item, words: make(item, "span", "se-verdict") };
   });
 
   // ---- from the state to what one sees
@@ -404,7 +404,12 @@ export function renderWorkshop(model, el) {
 
   function tell(isBad) {
     const name = nameOf(good.numbers);
-    write(said, (isBad ? "The last table that could be read: " : "") + headline(name, good));
+    const riddlesNow = puzzles(good, facts.traded),
+      solved = riddlesNow.flatMap(({ isWon }, i) => (isWon ? [` Puzzle ${i + 1} is solved.`] : []));
+    write(
+      said,
+      (isBad ? "The last table that could be read: " : "") + headline(name, good) + solved.join(""),
+    );
     write(rows.order, orderWords(good));
     const P = polynomial(good.R.P),
       Q = polynomial(good.R.Q);
@@ -417,7 +422,7 @@ export function renderWorkshop(model, el) {
       item.classList.toggle("se-holds", holds);
       write(words, holds ? "holds" : `is ${show(good.sums[i], 4)}`);
     });
-    puzzles(good, facts.traded).forEach(({ isWon, words }, i) => {
+    riddlesNow.forEach(({ isWon, words }, i) => {
       riddles[i].item.classList.toggle("se-won", isWon);
       write(riddles[i].words, words);
     });
@@ -464,16 +469,7 @@ export function renderWorkshop(model, el) {
     };
     for (const [name, text] of Object.entries(labels)) pictures[name].canvas.setAttribute("aria-label", text);
   }
-  const isStable = (z) => {
-    const { R } = good,
-      limit = 1 + 1e-12;
-    const size = (p) => {
-      let [x, y] = [0, 0];
-      for (let j = p.length - 1; j >= 0; j--) [x, y] = [x * z[0] - y * z[1] + p[j], x * z[1] + y * z[0]];
-      return Math.hypot(x, y);
-    };
-    return size(R.P) <= limit * size(R.Q);
-  };
+  const isStable = ([re, im]) => slackAt(good.R.P, good.R.Q, re, im) <= IN;
 
   function paint() {
     const begun = performance.now();

@@ -4,6 +4,7 @@ import { clamp, show, ticks, trace } from "./pen.js";
 import { growthAt } from "./tableau.js";
 
 const CELLS = 80; // of the region's picture, across
+export const IN = 1e-12; // roundoff of |R| = 1 counts as stable
 const TALL = 4.5; // of the region's window, from its middle, at least
 export const PHASES = 3; // of the imaginary axis, rad
 
@@ -15,22 +16,22 @@ export function windowOf(points) {
 }
 
 /** |P|² - |Q|² over their sum, without arrays: negative where the method is stable. */
-function slackAt(P, Q, re, im) {
-  let sizes = 0,
-    P2 = 0;
-  for (const coefficients of [P, Q]) {
-    let x = 0,
-      y = 0;
-    for (let j = coefficients.length - 1; j >= 0; j--) {
-      const kept = x * re - y * im + coefficients[j];
-      y = x * im + y * re;
-      x = kept;
-    }
-    const size = x * x + y * y;
-    if (coefficients === P) P2 = size;
-    sizes += size;
+export function slackAt(P, Q, re, im) {
+  const above = sizeAt(P, re, im),
+    below = sizeAt(Q, re, im);
+  return above + below > 0 ? (above - below) / (above + below) : 0;
+}
+
+/** |p|² of a real polynomial. */
+function sizeAt(p, re, im) {
+  let x = 0,
+    y = 0;
+  for (let j = p.length - 1; j >= 0; j--) {
+    const kept = x * re - y * im + p[j];
+    y = x * im + y * re;
+    x = kept;
   }
-  return sizes > 0 ? (2 * P2 - sizes) / sizes : 0;
+  return x * x + y * y;
 }
 
 /** The region in a frame, as a path to fill, and its border, by cells and straight lines in them. */
@@ -49,25 +50,26 @@ function regionPath({ P, Q }, { left, right, top, bottom, px, py, zx, zy }) {
       from = -1;
     };
     for (let i = 0; i < nx; i++) {
-      const corners = [
-        [xs[i], ys[j], values[j][i]],
-        [xs[i + 1], ys[j], values[j][i + 1]],
-        [xs[i + 1], ys[j + 1], values[j + 1][i + 1]],
-        [xs[i], ys[j + 1], values[j + 1][i]],
-      ];
-      const inside = corners.filter(([, , f]) => f <= 1e-12).length;
+      const [low, high] = [values[j], values[j + 1]];
+      const inside = (low[i] <= IN) + (low[i + 1] <= IN) + (high[i + 1] <= IN) + (high[i] <= IN);
       if (inside === 4) {
         if (from < 0) from = i;
         continue;
       }
       close(i);
       if (!inside) continue;
+      const corners = [
+        [xs[i], ys[j], values[j][i]],
+        [xs[i + 1], ys[j], values[j][i + 1]],
+        [xs[i + 1], ys[j + 1], values[j + 1][i + 1]],
+        [xs[i], ys[j + 1], values[j + 1][i]],
+      ];
       const polygon = [],
         crossings = [];
       corners.forEach(([x, y, f], k) => {
         const [u, w, g] = corners[(k + 1) % 4];
-        if (f <= 1e-12) polygon.push([x, y]);
-        if (f <= 1e-12 !== g <= 1e-12) {
+        if (f <= IN) polygon.push([x, y]);
+        if (f <= IN !== g <= IN) {
           const share = clamp(f / (f - g), 0, 1),
             crossing = [x + share * (u - x), y + share * (w - y)];
           polygon.push(crossing);
@@ -115,7 +117,7 @@ export function drawRegion(p, R, other, points) {
     p.text(show(x), px(x), bottom + 15, { align: "center" });
   for (const y of ticks(-half, half, 5)) if (y) p.text(show(y), px(0) + 4, py(y) + 4);
   for (const z of points) {
-    const grows = !(Math.hypot(...growthAt(R, z)) <= 1 + 1e-12),
+    const grows = !(slackAt(R.P, R.Q, ...z) <= IN),
       [x, y] = [clamp(px(z[0]), left, right), clamp(py(z[1]), top, bottom)];
     p.dot(x, y, 5, grows ? "alarm" : "paper", grows ? "alarm" : "ink", 2);
   }
@@ -124,18 +126,15 @@ export function drawRegion(p, R, other, points) {
 /** |R(iy)| and its phase over y, unwrapped, on [0, PHASES]: pairs of lists. */
 export function alongAxis(R, count = 121) {
   const ys = Array.from({ length: count }, (_, i) => (PHASES * i) / (count - 1));
-  let turned = 0,
-    before = 0;
   const sizes = [],
     phases = [];
+  let angle = 0;
   for (const y of ys) {
     const [re, im] = growthAt(R, [0, y]),
-      angle = Math.atan2(im, re);
-    if (angle - before > Math.PI) turned -= 2 * Math.PI;
-    if (angle - before < -Math.PI) turned += 2 * Math.PI;
-    before = angle;
+      turn = Math.atan2(im, re);
+    angle = turn + 2 * Math.PI * Math.round((angle - turn) / (2 * Math.PI));
     sizes.push(Math.hypot(re, im));
-    phases.push(y ? (angle + turned) / y : 1);
+    phases.push(y ? angle / y : 1);
   }
   return { ys, sizes, phases };
 }

@@ -1,6 +1,6 @@
 // What a workshop holds as text for an address, and back.
 
-const PREFIX = "#workshop:";
+export const PREFIX = "#workshop:";
 const MOST = 6; // stages
 const LETTERS = 40; // of an entry
 

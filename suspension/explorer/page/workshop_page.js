@@ -2,7 +2,7 @@
 
 import { makeModel } from "./values.js";
 import { renderWorkshop } from "./workshop.js";
-import { readLink, writeLink } from "./workshop_link.js";
+import { PREFIX, readLink, writeLink } from "./workshop_link.js";
 
 const PAUSE = 400; // ms after the last change, until the address says it
 
@@ -31,7 +31,9 @@ function followAddress(model, box) {
       clearTimeout(timer);
       timer = setTimeout(() => {
         const link = writeLink(model),
-          bare = location.pathname + location.search;
+          bare = location.pathname + location.search,
+          isOthers = location.hash && !location.hash.startsWith(PREFIX);
+        if (link === initial && isOthers) return;
         history.replaceState(history.state, "", link === initial ? bare : link);
       }, PAUSE);
     });
