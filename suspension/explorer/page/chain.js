@@ -70,7 +70,7 @@ export function renderChain(model, el) {
       model.save_changes();
     },
     JSON.stringify,
-    () => refresh.tools?.(),
+    hinder,
   );
 
   // ---- what one can do
@@ -138,16 +138,15 @@ export function renderChain(model, el) {
     lens.setAttribute("aria-pressed", isLarge);
     update();
   });
-  const refresh = {
-    tools() {
-      for (const { tool, hindered } of actions) {
-        const why = hindered();
-        if (why && tool === document.activeElement) pad.focus({ preventScroll: true });
-        tool.disabled = Boolean(why);
-        tool.title = why;
-      }
-    },
-  };
+  /** What cannot be done now is disabled, and says why. */
+  function hinder() {
+    for (const { tool, hindered } of actions) {
+      const why = hindered();
+      if (why && tool === document.activeElement) pad.focus({ preventScroll: true });
+      tool.disabled = Boolean(why);
+      tool.title = why;
+    }
+  }
 
   // ---- by mouse and finger
 
@@ -395,7 +394,7 @@ export function renderChain(model, el) {
       `Critical speeds over the stiffness, with the interval of k. ${speeds} ${rows.map(([v, verdict]) => `${v}: ${verdict}.`).join(" ")}`,
     ];
     panels.forEach(({ canvas }, i) => canvas.setAttribute("aria-label", names[i]));
-    refresh.tools();
+    hinder();
     scheduled ||= requestAnimationFrame(paint);
   }
 
