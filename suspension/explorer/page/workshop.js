@@ -2,13 +2,12 @@
 // The state is what is typed: texts; while some of them are no numbers, the last good table is shown.
 
 import { button, make, write } from "./dom.js";
-import { begin, plain, show } from "./pen.js";
+import { begin, clamp, plain, show } from "./pen.js";
 import { CONDITIONS, readEntry, rowSums, writeEntry } from "./tableau.js";
 import { coloursOf, onTheme } from "./theme.js";
 import { drawAxis, drawForces, drawRegion, drawWork, IN, slackAt } from "./workshop_draw.js";
 import { makeBench } from "./workshop_run.js";
 import {
-  clampTo,
   examine,
   headline,
   limitWords,
@@ -101,7 +100,7 @@ export function renderWorkshop(model, el) {
     if (![b, c, ...(a ?? [])].every(isRow) || a?.length !== b.length) return typed(start);
     return { a, b, c, follows: follows !== false };
   }
-  const setting = (name) => clampTo(Number(model.get(name)) || ranges[name][0], ranges[name]);
+  const setting = (name) => clamp(Number(model.get(name)) || ranges[name][0], ...ranges[name]);
   const nameOf = (numbers) =>
     known.find(({ values }) =>
       ["a", "b", "c"].every((part) => {
@@ -284,7 +283,7 @@ export function renderWorkshop(model, el) {
     keep = button(moves, "Keep to compare"),
     forget = button(moves, "Forget it");
   toLimit.addEventListener("click", () => {
-    model.set("dt", clampTo(good.limit, ranges.dt));
+    model.set("dt", clamp(good.limit, ...ranges.dt));
     model.save_changes();
   });
   keep.addEventListener("click", () => {

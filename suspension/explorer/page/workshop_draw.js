@@ -35,7 +35,7 @@ function sizeAt(p, re, im) {
 }
 
 /** The region in a frame, as a path to fill, and its border, by cells and straight lines in them. */
-function regionPath({ P, Q }, { left, right, top, bottom, px, py, zx, zy }) {
+function regionPath({ P, Q }, { left, right, top, bottom, zx, zy }) {
   const nx = CELLS,
     ny = Math.max(8, Math.round((CELLS * (bottom - top)) / (right - left)));
   const xs = Array.from({ length: nx + 1 }, (_, i) => left + ((right - left) * i) / nx),
@@ -85,7 +85,7 @@ function regionPath({ P, Q }, { left, right, top, bottom, px, py, zx, zy }) {
     }
     close(nx);
   }
-  return { area, border, px, py };
+  return { area, border };
 }
 
 /** The region, dashed the border of the one to compare with, and the modes at the present step. */

@@ -1,6 +1,6 @@
 // What the workshop says of a table: sentences, each with a branch for every case.
 
-import { clamp, show } from "./pen.js";
+import { show } from "./pen.js";
 import {
   CONDITIONS,
   growthAt,
@@ -139,10 +139,10 @@ export function puzzles(facts, traded) {
     if (missing) return [false, missing];
     if (kind !== "explicit") return [false, `Explicit, please: yours is ${kind}.`];
     if (limit >= CLOSE * traded)
-      return [true, `Won: ${ms(limit)} of ${ms(traded)}, the longest there is. Order 3 would cost this.`];
+      return [true, `Won: ${ms(limit)} of ${ms(traded)}, the longest possible. Order 3 would cost this.`];
     return [
       false,
-      `${ms(limit)} so far; the longest there is is ${ms(traded)}. Only the factor of z³ in R is free.`,
+      `${ms(limit)} so far; the longest possible is ${ms(traded)}. Only the factor of z³ in R is free.`,
     ];
   };
   const third = () => {
@@ -165,5 +165,3 @@ export function puzzles(facts, traded) {
 /** What cannot be read, in words. */
 export const wrongEntry = (name, text) =>
   `${name}: a number or a fraction is expected, like 1/6, 0.5 or (3-√3)/6, not “${text.slice(0, 20)}”.`;
-
-export const clampTo = (value, [low, high]) => clamp(value, low, high);
