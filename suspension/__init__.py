@@ -17,13 +17,13 @@ What goes beyond:
 - `tyre`: wheels that weigh something, and how light they must be
 - `energy`: what the road puts in, and where it goes
 - `spring_law`: the spring with its preload, its curvature and an end stop
-- `motion`, `sweep`, `extremes`: very many runs at once, on a ground that only pushes
-- `small_angle`: what a pitch that is not small changes
+- `motion`, `extremes`, `sweep`: very many runs at once, on a ground that only pushes
 - `frequency`: what the robot makes of waves in the road, and of rough roads
 - `rides`: rides on many rough roads at once
 - `choice`: what a suspension must do, and the least change that does it
-- `travel`, `accuracy`, `small_angle`, `branches`, `uncertainty`: how far the answers can be trusted
-- `measured`: which verdicts such a spring leaves standing
+- `travel`, `accuracy`, `branches`, `uncertainty`: how far the answers can be trusted
+- `small_angle`: what a pitch that is not small changes
+- `measured`: which verdicts the measured spring leaves standing
 
 And what makes a book of it: `figures`, `animation`, `report`, `explorer`, and `practice`, which
 checks what a student writes in the workbook. These draw and write, and nothing above imports them;

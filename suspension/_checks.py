@@ -11,11 +11,14 @@ __all__ = [
     "ends",
     "function",
     "instance",
+    "instances",
     "interval",
     "nonnegative",
     "number",
     "one_of",
+    "pair",
     "positive",
+    "positives",
     "whole",
 ]
 
@@ -80,6 +83,15 @@ def ends(low_name, low, high_name, high):
     return low, number(high_name, high, f"> {low_name} = {low:g}", lambda x: x > low)
 
 
+def pair(name, value):
+    """Return both ends of a range that is one argument, ``(low, high)``, as floats > 0."""
+    try:
+        low, high = value
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be a pair (low, high), got {short(value)}") from None
+    return ends(f"{name}[0]", low, f"{name}[1]", high)
+
+
 def whole(name, value, low):
     """Return `value` as an int >= low."""
 
@@ -102,6 +114,16 @@ def instance(name, value, kind):
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be a {kind.__name__}, got {value!r}")
     return value
+
+
+def instances(name, values, kind):
+    """Return one or an array of `kind` as an array of objects, else raise TypeError naming it."""
+    values = np.asarray(values, dtype=object)
+    for value in values.flat:
+        if not isinstance(value, kind):
+            allowed = f"a {kind.__name__} or an array of them"
+            raise TypeError(f"{name} must be {allowed}, got {value!r}")
+    return values
 
 
 def function(name, value, signature):
@@ -131,4 +153,12 @@ def array(name, value, shape=None, dtype=float, finite=True):
         raise ValueError(f"{name} must have shape {wanted}, got {x.shape}")
     if finite and not np.isfinite(x).all():
         raise ValueError(f"{name} must be finite everywhere, got {x[~np.isfinite(x)].flat[0]}")
+    return x
+
+
+def positives(name, values, shape=None):
+    """Return `values` as an array of finite numbers > 0; `shape` as in `array`."""
+    x = array(name, values, shape)
+    if not (x > 0).all():
+        raise ValueError(f"{name} must be > 0 everywhere, got {x[~(x > 0)].flat[0]}")
     return x

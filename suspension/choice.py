@@ -97,7 +97,7 @@ class Candidate(NamedTuple):
 
 
 class Findings(NamedTuple):
-    """What Part X found.
+    """The choices for several demands, and a close look at each suspension.
 
     Attributes
     ----------
@@ -183,10 +183,18 @@ def candidate(robot, bump, v, *, distance=None):
     Returns
     -------
     Candidate
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, the axles of the robot differ or have no dampers, or
+        `suspension.contact.regimes` refuses.
     """
     _own(robot, bump)
     k, c = [robot.k1], [robot.c1]
     v, _, _ = _grid(v, k, c)
+    if v.min() == v.max():
+        raise ValueError(f"v must hold two speeds or more, got {v}")
     return Candidate(
         robot,
         {float(u): margin(robot, bump, u, distance=distance) for u in v},
@@ -287,6 +295,12 @@ def farthest(robot, bump, v, k, c, name, *, distance=None):
     Returns
     -------
     Choice or None
+        None if no point of the grid keeps contact.
+
+    Raises
+    ------
+    ValueError
+        As `cheapest` does.
 
     Examples
     --------

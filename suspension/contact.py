@@ -149,25 +149,12 @@ def regimes(
 ) -> Regimes:
     """At which speeds contact is kept on the way over the bump, and at which it is lost.
 
-    Parameters
-    ----------
-    robot : Robot
-    bump : GaussianBump
-    vmin, vmax : float
-        Range of speeds, m/s, 0 < vmin < vmax.
-    distance : float, optional
-        How far each run goes, m: 1.25 m if the whole bump lies within
-        (`suspension.least_force.distance_over`).
+    Parameters and errors are those of `suspension.critical.critical_speeds`.
 
     Returns
     -------
     Regimes
         Between `vmin`, the critical speeds and `vmax`.
-
-    Raises
-    ------
-    ValueError
-        As `critical_speeds` does.
 
     Examples
     --------

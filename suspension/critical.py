@@ -66,14 +66,12 @@ def critical_stiffness(robot, bump, v, kmin, kmax, *, distance=None):
 
     Parameters
     ----------
-    robot : Robot
-    bump : GaussianBump
+    robot, bump, distance
+        As in `critical_speeds`.
     v : float
         Speed, m/s, > 0.
     kmin, kmax : float
         Range of k1, N/m, 0 < kmin < kmax.
-    distance : float, optional
-        As in `critical_speeds`.
 
     Returns
     -------
@@ -112,19 +110,22 @@ def sensitivity(robot, bump, v, *names, distance=None):
 
     Parameters
     ----------
-    robot : Robot
-    bump : GaussianBump
+    robot, bump, distance
+        As in `critical_speeds`.
     v : float
         Speed, m/s, > 0.
     *names : str
         Parameters of the robot, such as ``"k1", "k2"``, or ``"v"``.
-    distance : float, optional
-        As in `critical_speeds`.
 
     Returns
     -------
     sensitivity : float
         In N: a hundredth of it is the change that one percent makes.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, no name is given, or one is no parameter's.
     """
     distance = distance_over(robot, bump, distance)
     v = _checks.positive("v", v)

@@ -30,7 +30,7 @@ class Extremes:
     ----------
     motion
         With ``forces(p, r, case=None) -> f, N`` (Eq. 5 and what the ground does, N), ``m``, ``g``,
-        ``load`` and ``time``, of half a step, s (shape (n,)), and ``pulls``.
+        and ``time``, of half a step, s (shape (n,)), ``loads`` (2, n), and ``pulls``.
     n : int
     dX : float
         Length of a step, m.
@@ -62,7 +62,7 @@ class Extremes:
         pressing = N > 0
         middle = f[1:-1]
         dip = (middle < f[:-2]) & (middle <= f[2:])
-        dip &= middle < np.maximum(self.least, 0) + NEAR * self.motion.load
+        dip &= middle < np.maximum(self.least, 0) + NEAR * self.motion.loads.min(axis=0)
         switch = pressing[1:-2] != pressing[2:-1]
         look = (switch | dip[:-1] | dip[1:]).any(axis=1)
         off = ~(pressing[1:-2] | pressing[2:-1])

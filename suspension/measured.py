@@ -21,7 +21,6 @@ __all__ = [
     "Study",
     "follow_speed",
     "joint_draws",
-    "same_speed",
     "surviving",
     "zero_speeds",
     "zero_stops",
@@ -29,6 +28,7 @@ __all__ = [
 
 REACH = 1.3  # a critical speed is looked for within this factor of where it was
 SAME = 0.1  # critical speeds of two laws nearer than this (of a logarithm) are called the same
+MAX_ZOOMS = 17  # then an interval is as short as roundoff
 SURE = 0.025  # a verdict with a smaller share of doubt is signed
 
 
@@ -45,7 +45,7 @@ def zero_speeds(robot, law, road, v, *, zooms=1, geometry="small"):
     v : array_like, shape (n,)
         Speeds in order, m/s, n >= 2. Two zeros between two neighbours are not seen.
     zooms : int
-        How often eight intervals take the place of one, before a straight line ends it.
+        How often eight intervals take the place of one, at most 17, before a straight line ends it.
     geometry : {"small", "full"}
         As in `drive`.
 
@@ -111,11 +111,12 @@ def _in_order(name, values):
 
 def _zeros(margin, x, zooms):
     """Where margin(x), a function of arrays, changes its sign between samples, as exp(x)."""
-    zooms = _checks.whole("zooms", zooms, 0)
+    if _checks.whole("zooms", zooms, 0) > MAX_ZOOMS:
+        raise ValueError(f"zooms must be at most {MAX_ZOOMS}, got {zooms}")
     margins = margin(x)
     j = np.flatnonzero(margins[:-1] * margins[1:] < 0)
     ends, values = np.array([x[j], x[j + 1]]), np.array([margins[j], margins[j + 1]])
-    return np.exp(_zeros_between(margin, ends, values, zooms)), margins
+    return np.exp(_zeros_between(margin, ends, values, int(zooms))), margins
 
 
 def _zeros_between(margin, ends, values, zooms):
@@ -331,11 +332,5 @@ def surviving(critical):
     -------
     speeds : list of float
     """
-    first, *others = critical
-    return [v for v in first if all(same_speed(speeds, v) is not None for speeds in others)]
-
-
-def same_speed(speeds, v):
-    """The one of some critical speeds that is nearest to `v`; None if none is within a tenth."""
-    near = [w for w in speeds if abs(np.log(w / v)) < SAME]
-    return min(near, key=lambda w: abs(np.log(w / v)), default=None)
+    first, *others = (_checks.positives("critical", speeds, (None,)) for speeds in critical)
+    return [float(v) for v in first if all((np.abs(np.log(w / v)) < SAME).any() for w in others)]

@@ -66,9 +66,9 @@ class Small:
         # A normal force moves its own end, and the other one.
         self.own = self.time**2 * (1 / self.m + self.arms**2 / self.inertia)
         self.other = self.time**2 * (1 / self.m - L1 * L2 / self.inertia)
-        loads = self.m * self.g * np.array([L2, L1]) / self.span
-        self.load = loads.min(axis=0)
-        self.start = -loads / self.k if self.law is None else -self.law.displacement(loads)
+        self.loads = self.m * self.g * np.array([L2, L1]) / self.span  # at rest
+        law, loads = self.law, self.loads
+        self.start = -loads / self.k if law is None else -law.displacement(loads)
 
     def forces(self, p, r, case=None):
         """Eq. 5 and the normal forces, N, from compressions and their rates.

@@ -20,6 +20,9 @@ WAVE = 32  # steps for the shortest wave of the roads
 SWING = 12  # steps for each swing of the stiffest spring
 DECAY = 1.0  # steps for each time constant of the strongest damper
 MAX_STEPS = 10**8  # of all rides together, a step of any number of rides counting 1000 more
+MAX_PLACES = (
+    10**7
+)  # of all roads together, a wheelbase on a road each, a step long: half a gigabyte
 
 
 class Rides(NamedTuple):
@@ -67,7 +70,7 @@ def rides(robots, roads, v, *, ground="pushes"):
     ------
     ValueError
         If an argument is out of its range, they cannot be broadcast, the roads differ in length,
-        or the rides would take more than 10^8 steps together.
+        or the rides would take more than 10^8 steps together, or roads with more than 10^7.
 
     Notes
     -----
@@ -83,10 +86,13 @@ def rides(robots, roads, v, *, ground="pushes"):
     array([False,  True])
     """
     _checks.one_of("ground", ground, ("pushes", "pulls"))
-    v = _checks.array("v", v)
-    if not (v > 0).all():
-        raise ValueError(f"v must be > 0 everywhere, got {v[~(v > 0)].flat[0]}")
-    robots, roads = _all("robots", robots, Robot), _all("roads", roads, RoughRoad)
+    v = _checks.positives("v", v)
+    robots = _checks.instances("robots", robots, Robot)
+    roads = _checks.instances("roads", roads, RoughRoad)
+    lengths = {road.length for road in roads.flat}
+    if len(lengths) > 1:
+        raise ValueError(f"roads must be of one length, got {sorted(lengths)}")
+    waves = WAVE * max((road.length / road.shortest for road in roads.flat), default=0)
     try:
         robots, roads, v = np.broadcast_arrays(robots, roads, v)
     except ValueError:
@@ -94,41 +100,33 @@ def rides(robots, roads, v, *, ground="pushes"):
             "robots, roads and v must have shapes that fit, "
             f"got {robots.shape}, {roads.shape} and {v.shape}"
         ) from None
-    shape, cases = v.shape, Cases(robots.ravel(), v.ravel(), None)
-    roads = roads.ravel()
-    lengths = {road.length for road in roads}
-    if len(lengths) > 1:
-        raise ValueError(f"roads must be of one length, got {sorted(lengths)}")
-    if not roads.size:
+    shape = v.shape
+    if not v.size:
         return Rides(*(np.empty((*wheels, *shape)) for wheels in ((2,), (), (2,), (2,))))
-    found = _run(cases, roads, lengths.pop(), ground == "pulls")
+    _allow(waves, v.size)  # before so many cases are written down
+    cases, roads = Cases(robots.ravel(), v.ravel(), None), roads.ravel()
+    found = _run(cases, roads, waves, lengths.pop(), ground == "pulls")
     return Rides(*(values.reshape(values.shape[:-1] + shape) for values in found))
 
 
-def _all(name, values, kind):
-    """An array of objects of one kind."""
-    values = np.asarray(values, dtype=object)
-    for value in values.flat:
-        _checks.instance(name, value, kind)
-    return values
-
-
-def _run(cases, roads, length, pulls):
-    """The fields of `Rides` of n cases, each of shape (n,) or (2, n)."""
-    rate = np.maximum(cases.swings() * SWING, DECAY * cases.decays())  # steps a second
-    waves = WAVE * length / min(road.shortest for road in roads)
-    steps = np.ceil(max(waves, (length / cases.v * rate).max()))
-    if not 2 * steps * (cases.v.size + 1000) <= MAX_STEPS:
+def _allow(steps, n):
+    """Refuse n rides that would take too many steps together."""
+    if not 2 * steps * (n + 1000) <= MAX_STEPS:
         raise ValueError(
             "v must not be so low, the springs or dampers so strong, or roads so long or so many, "
             f"that all rides together take more than {MAX_STEPS:.0e} steps, got {2 * steps:.2g} "
-            f"for each of {cases.v.size}"
+            f"for each of {n}"
         )
+
+
+def _run(cases, roads, waves, length, pulls):
+    """The fields of `Rides` of n cases with so many steps or more, each (n,) or (2, n)."""
+    rate = np.maximum(cases.swings() * SWING, DECAY * cases.decays())  # steps a second
+    steps = np.ceil(max(waves, (length / cases.v * rate).max()))
+    _allow(steps, cases.v.size)
     steps = int(steps)
     motion = Small(cases, length / steps, pulls)
     H, rise, which = _ground(roads, motion, length, steps)
-    load = cases.values("m g").prod(axis=0)[None] / motion.span  # of a lever of 1 m
-    load = load * np.abs(motion.arms[::-1])
     y, u = _start(cases, roads, motion)
 
     def rates(y, u, place):
@@ -141,7 +139,7 @@ def _run(cases, roads, length, pulls):
         a1, _, _, _, N = rates(y, u, 2 * j)
         before, pressing = pressing, N > 0
         if j >= steps:
-            squares += (N - load) ** 2
+            squares += (N - motion.loads) ** 2
             jerks += ((N[0] + N[1]) / motion.m - motion.g) ** 2
             off += ~pressing
             flights += before & ~pressing
@@ -163,13 +161,20 @@ def _ground(roads, motion, length, steps):
     """
     keys = list(zip(roads, *motion.arms))
     grounds = list(dict.fromkeys(keys))
-    half, spectra = length / (2 * steps), np.zeros((2, 2, len(grounds), steps + 1), dtype=complex)
+    if steps * len(grounds) > MAX_PLACES:
+        raise ValueError(
+            f"roads must have at most {MAX_PLACES:.0e} steps together, "
+            f"got {steps} on each of {len(grounds)}"
+        )
+    half, spectrum = length / (2 * steps), np.zeros((2, steps + 1), dtype=complex)
+    H, rise = np.empty((2, 2 * steps, 2, len(grounds)))
     for i, (road, *arms) in enumerate(grounds):
         rate = 2j * np.pi * road.wavenumbers
         waves = steps * road.amplitudes * np.exp(np.multiply.outer(arms, rate))
-        spectra[0, :, i, 1 : 1 + len(rate)] = waves
-        spectra[1, :, i, 1 : 1 + len(rate)] = half * rate * waves
-    H, rise = np.ascontiguousarray(np.moveaxis(np.fft.irfft(spectra, 2 * steps), -1, 1))
+        spectrum[:] = 0
+        for values, each in ((H, waves), (rise, half * rate * waves)):
+            spectrum[:, 1 : 1 + len(rate)] = each
+            values[..., i] = np.fft.irfft(spectrum, 2 * steps).T
     place = {key: i for i, key in enumerate(grounds)}
     return H, rise, np.array([place[key] for key in keys])
 

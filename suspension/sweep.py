@@ -6,6 +6,7 @@ step those of `suspension.simulation.simulate`, in half the time of a `drive`.
 """
 
 from dataclasses import replace
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -140,13 +141,13 @@ def drive(robots, road, v, *, law=None, ground="pushes", geometry="small", dista
     _checks.one_of("ground", ground, ("pushes", "pulls"))
     _checks.one_of("geometry", geometry, ("small", "full"))
     fine = _checks.positive("fine", fine)
-    robots, v = _robots(robots), _speeds(v)
+    robots, v = _checks.instances("robots", robots, Robot), _checks.positives("v", v)
     distance = _passed(robots, road, distance)
-    shape, cases = _side_by_side(robots, v, law)
+    way = _Way(road, distance, fine, ground == "pulls", geometry == "full")
+    shape, cases = _side_by_side(robots, v, law, way)
     n = cases.v.size
     found = Drive(np.empty(n), np.empty(n), np.empty(n, dtype=int), *np.empty((4, n)),
                   np.empty((2, n)), np.empty((2, n), dtype=int))  # fmt: skip
-    way = _Way(road, distance, fine, ground == "pulls", geometry == "full")
     free = cases if law is None else cases._replace(law=cases.law.free)
     _fill(found, np.arange(n), free, way)
     if law is not None:
@@ -164,6 +165,12 @@ class _Way(NamedTuple):
     pulls: bool
     full: bool
 
+    @property
+    def fewest(self):
+        """Steps that every run takes at least, for the road's sake, float."""
+        sigma = _checks.positive("road's sigma", getattr(self.road, "sigma", FEATURE))
+        return self.fine * self.distance / (sigma / SPACING)
+
 
 def _passed(robots, road, distance):
     """How far the runs go, m: `distance`, or that of the problem if the whole bump is in it."""
@@ -175,7 +182,7 @@ def _passed(robots, road, distance):
     return DISTANCE if distance is None else _checks.positive("distance", distance)
 
 
-def _side_by_side(robots, v, law):
+def _side_by_side(robots, v, law, way):
     """The shape of all cases, and the cases in a row."""
     arrays = {"robots": robots, "v": v}
     if law is not None:
@@ -185,6 +192,7 @@ def _side_by_side(robots, v, law):
     except ValueError:
         each = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise ValueError(f"robots, v and law must have shapes that fit, got {each}") from None
+    _allow(way.fewest * (prod(shape) + OVERHEAD))  # before so many cases are written down
     robots, v = (np.broadcast_to(array, shape).ravel() for array in (robots, v))
     if law is not None:
         each = (np.broadcast_to(x, shape).ravel() for x in (law.beta0, law.beta1, law.beta2))
@@ -198,24 +206,27 @@ def _fill(found, some, cases, way):
     some, steps = some[np.argsort(steps)], np.sort(steps)
     # Runs of similar length side by side, each batch as long as its longest.
     batches = [slice(i, i + SIDE_BY_SIDE) for i in range(0, some.size, SIDE_BY_SIDE)]
-    work = sum(steps[batch][-1] * (steps[batch].size + OVERHEAD) for batch in batches)
-    if not work <= MAX_DRIVES:
-        raise ValueError(
-            "v must not be so low or so many, the springs, stops or dampers so strong, or distance "
-            f"or fine so large, that all runs together take more than {MAX_DRIVES:.0e} steps (one "
-            f"of any number of runs counts {OVERHEAD} more), got {work:.2g}"
-        )
+    _allow(sum(steps[batch][-1] * (steps[batch].size + OVERHEAD) for batch in batches))
     for batch in batches:
         result = _run(cases.some(some[batch]), int(steps[batch][-1]), way)
         for values, new in zip(found, result):
             values[..., some[batch]] = new
 
 
+def _allow(work):
+    """Refuse runs that would take too many steps together."""
+    if not work <= MAX_DRIVES:
+        raise ValueError(
+            "v must not be so low or so many, the springs, stops or dampers so strong, or distance "
+            f"or fine so large, that all runs together take more than {MAX_DRIVES:.0e} steps (one "
+            f"of any number of runs counts {OVERHEAD} more), got {work:.2g}"
+        )
+
+
 def _steps(cases, way):
     """How many steps each run takes, shape (n,), float."""
-    spacing = _checks.positive("road's sigma", getattr(way.road, "sigma", FEATURE)) / SPACING
     rate = np.maximum(cases.swings() * SWING, DECAY * cases.decays())  # steps a second
-    return np.ceil(way.fine * np.maximum(way.distance / spacing, way.distance / cases.v * rate))
+    return np.ceil(np.maximum(way.fewest, way.fine * way.distance / cases.v * rate))
 
 
 class _Ground:
@@ -333,7 +344,7 @@ def sweep(robots, road, v, *, steps, distance=DISTANCE, scheme=RK4):
     array([[  4.7 ,  -4.4 ,   3.43],
            [  5.6 , -25.23,   1.67]])
     """
-    robots, v = _robots(robots), _speeds(v)
+    robots, v = _checks.instances("robots", robots, Robot), _checks.positives("v", v)
     _checks.instance("scheme", scheme, Scheme)
     steps, distance = _checks.whole("steps", steps, 1), _checks.positive("distance", distance)
     if steps > MAX_STEPS:
@@ -388,18 +399,3 @@ def _batch(robots, v, ground, abscissae, dX, scheme):
             np.minimum(least, y, out=least)
             d = np.einsum("ijn,jn->in", R, d) + np.einsum("ijn,j->in", inputs, u)
     return least.T + at_rest
-
-
-def _robots(robots):
-    robots = np.asarray(robots, dtype=object)
-    for robot in robots.flat:
-        if not isinstance(robot, Robot):
-            raise TypeError(f"robots must be a Robot or an array of them, got {robot!r}")
-    return robots
-
-
-def _speeds(v):
-    v = _checks.array("v", v)
-    if not (v > 0).all():
-        raise ValueError(f"v must be > 0 everywhere, got {v[~(v > 0)].flat[0]}")
-    return v

@@ -32,9 +32,9 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = "robot road schemes forces simulation exact least_force critical contact flight".split()
-MODULES += "spring_law sweep choice uncertainty".split()
-# Files of tests beside a module's own.
-MORE_TESTS = {"sweep": ["drive"]}
+MODULES += "spring_law motion sweep choice uncertainty".split()
+# Files of tests of those that have others than their own.
+TESTS = {"sweep": ["sweep", "drive"], "motion": ["sweep", "drive", "rides"]}
 NO_TESTS = 5  # what pytest answers where it finds none
 SLOWEST = 5  # times as long as without a change, then a mutant is stopped, and killed
 OPERATORS = {
@@ -215,7 +215,7 @@ def run_tests(mutant, tests):
 
 def stages(module):
     """What is run, one after the other, of those that survive: most fall at once."""
-    names = [module, *MORE_TESTS.get(module, ())]
+    names = TESTS.get(module, [module])
     own = [f"suspension/{module}.py", *(f"tests/unit/test_{name}.py" for name in names)]
     yield ["-m", "not slow", *own]
     yield ["tests/unit/test_bad_input.py"]

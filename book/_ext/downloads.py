@@ -49,13 +49,15 @@ def say_what_is_needed(app, exception):
     if exception or app.builder.format != "html":
         return
     repository = os.environ.get("BOOK_REPOSITORY", "").rstrip("/")
-    text = head(app.config.project, build_wheel(app), app.config.html_baseurl, repository)
+    wheel = build_wheel(app)
+    text = head(app.config.project, wheel, app.config.html_baseurl, repository)
     for path in sorted(Path(app.outdir, "_sources").rglob("*.ipynb")):
         notebook = nbformat.read(path, as_version=4)
         notebook.cells.insert(0, nbformat.v4.new_markdown_cell(text, id="needs-suspension"))
         nbformat.write(notebook, path)
     with TemporaryDirectory() as folder:
-        packed = students.hand_out("students", folder, Path(app.srcdir))
+        wheel = Path(app.outdir, wheel)
+        packed = students.hand_out("students", folder, Path(app.srcdir), wheel)
         shutil.copy(packed, Path(app.outdir, "_static"))
 
 

@@ -181,12 +181,15 @@ def write_zip(folder, target):
                 packed.writestr(info, path.read_bytes())
 
 
-def hand_out(kind, build, root=ROOT):
-    """Write a copy into the folder `build`, and beside it packed; return the zip."""
+def hand_out(kind, build, root=ROOT, wheel=None):
+    """Write a copy into the folder `build`, and beside it packed; return the zip.
+
+    The wheel is made if there is none yet.
+    """
     folder = Path(build, f"suspension-{kind}")
     shutil.rmtree(folder, ignore_errors=True)
     with tempfile.TemporaryDirectory() as place:
-        write_copy(folder, kind, make_wheel(place, root), root)
+        write_copy(folder, kind, wheel or make_wheel(place, root), root)
     packed = folder.with_suffix(".zip")
     write_zip(folder, packed)
     return packed

@@ -13,9 +13,10 @@
     document.documentElement.dataset.theme = theme;
   });
 
+  const WIDE = "article .katex-display, .pst-scrollable-table-container";
   const reach = () => {
     // What scrolls sideways can be reached by keyboard.
-    for (const box of document.querySelectorAll("article .katex-display, .pst-scrollable-table-container")) {
+    for (const box of document.querySelectorAll(WIDE)) {
       if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
     }
@@ -24,9 +25,12 @@
       formula.setAttribute("aria-label", formula.textContent);
     }
   };
-  addEventListener("resize", reach);
+  const sizes = new ResizeObserver(reach); // of the window, and when a font comes late
   addEventListener("load", () => {
     reach();
+    for (const box of document.querySelectorAll(WIDE)) {
+      for (const each of [box, ...box.children]) sizes.observe(each);
+    }
     // The widgets add to the text later. A widget at work changes nothing of this.
     const added = new MutationObserver((changes) => {
       if (changes.some(({ target }) => !target.closest(".jupyter-widgets"))) reach();

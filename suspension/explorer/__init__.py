@@ -40,6 +40,7 @@ from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_sp
 from suspension.explorer.tables import scheme_facts, shape_of
 from suspension.explorer.workshop import Workshop, workshop_script, workshop_style
 from suspension.flight import fly
+from suspension.problem import SPEEDS
 from suspension.road import FlatRoad
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
@@ -76,9 +77,7 @@ SLIDERS = {False: NUMBERS, True: ("v",), "chart": ("c", "height"), "race": ()}
 TRAITS = (*NUMBERS, "scheme_index", "time", "motion", "view", "pace", "mapped", "pin")
 WIDTHS = 4.0  # of a bump to either side of its middle: further away there is nothing of it
 CELLS = (512, 8192)  # steps of the curve over all speeds, at least and at most
-
-
-START = 1.2  # m/s, for a robot and a road like the problem's
+START = SPEEDS[1]  # m/s, for a robot and a road like the problem's
 
 
 class Explorer(anywidget.AnyWidget):
@@ -112,10 +111,10 @@ class Explorer(anywidget.AnyWidget):
     _esm = bundle(PAGE, "widget")
     _css = without_comments((PAGE / "explorer.css").read_text(encoding="utf-8"))
 
-    v = traitlets.Float(1.2).tag(sync=True)
+    v = traitlets.Float(1.0).tag(sync=True)
     dt = traitlets.Float(0.001).tag(sync=True)
-    k = traitlets.Float(800.0).tag(sync=True)
-    c = traitlets.Float(1.5).tag(sync=True)
+    k = traitlets.Float(1.0).tag(sync=True)
+    c = traitlets.Float(1.0).tag(sync=True)
     height = traitlets.Float(1.0).tag(sync=True)
     sigma = traitlets.Float(1.0).tag(sync=True)
     scheme_index = traitlets.Int(0).tag(sync=True)
@@ -454,7 +453,7 @@ def explore(
     asked = _speeds("asked", asked)
     if compact == "race" and len(asked) < 2:
         raise ValueError(f"asked must be two speeds or more for a race, got {asked!r}")
-    low, high = family.speeds if speeds is None else _ends(speeds)
+    low, high = family.speeds if speeds is None else _checks.pair("speeds", speeds)
     if speeds is None:  # what is asked for by name can be reached
         low, high = min([low, *asked]), max([high, *asked])
     ranges = {"v": Range(low, high, True)} | family.ranges
@@ -497,19 +496,13 @@ def _speeds(name, values):
     return tuple(float(_checks.positive(name, v)) for v in values)
 
 
-def _ends(speeds):
-    """The ends of a range of speeds."""
-    try:
-        low, high = speeds
-    except (TypeError, ValueError):
-        raise ValueError(f"speeds must be a pair (low, high) in m/s, got {speeds!r}") from None
-    return tuple(map(float, _checks.ends("speeds[0]", low, "speeds[1]", high)))
-
-
 def _preset(preset, names, ranges):
     """A button's label and its settings, as the page reads them."""
-    label, settings = preset
-    checked = {}
+    try:
+        label, settings = preset
+        settings, checked = dict(settings), {}
+    except (TypeError, ValueError):
+        raise ValueError(f"presets must be pairs of a label and a dict, got {preset!r}") from None
     for name, value in settings.items():
         if name == "scheme":
             value = _checks.one_of("scheme of presets", getattr(value, "name", value), names)

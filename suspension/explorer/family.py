@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from suspension.explorer.settings import DTS
+from suspension.problem import BUMP
 from suspension.road import GaussianBump, profile
 
 __all__ = ["Family", "Range", "affine", "before_the_bump"]
@@ -103,7 +104,7 @@ class Family:
     @property
     def way(self):
         """How far the robot drives until both wheels have long passed a bump, m."""
-        centre = getattr(self.road, "centre", 0.3 / 0.0288 * self.feature)
+        centre = getattr(self.road, "centre", BUMP.centre / BUMP.sigma * self.feature)
         return _round_up(max(centre, 0.0) + self.robot.L1 + WAY * self.feature, WAYS)
 
     @property

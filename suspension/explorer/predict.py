@@ -47,10 +47,7 @@ class Prediction(Instrument):
 
     def __init__(self, name, x, y, x_name, y_name, **facts):
         self.name = name
-        x, y = (
-            list(map(float, _checks.ends(f"{axis}[0]", ends[0], f"{axis}[1]", ends[1])))
-            for axis, ends in (("x", x), ("y", y))
-        )
+        x, y = (list(_checks.pair(axis, ends)) for axis, ends in (("x", x), ("y", y)))
         own = {"columns": COLUMNS, "x": x, "y": y, "names": [x_name, y_name]}
         super().__init__(facts=own | {"symbol": x_name.split()[-1]} | facts)
 
@@ -72,6 +69,9 @@ class Prediction(Instrument):
         -------
         Prediction
         """
+        x = _checks.positives("x", x, (None,))
+        lines = {name: _on("lines", line, x) for name, line in lines.items()}
+        exact = _on("exact", exact, x)
         facts = self.facts
         ends = np.log10(facts["x"])
         places = np.linspace(*ends, COLUMNS)
@@ -121,6 +121,14 @@ class Prediction(Instrument):
             figure, ax = plt.subplots(figsize=(7.2, 3.8))
             empty_axes(self.facts["x"], self.facts["y"], self.facts["names"], ax)
         return svg(figure)
+
+
+def _on(name, values, x):
+    """Heights at places x, > 0, of which some may be inf."""
+    values = _checks.array(name, values, x.shape, finite=False)
+    if not (values > 0).all():
+        raise ValueError(f"{name} must be > 0 everywhere, got {values[~(values > 0)][0]}")
+    return values
 
 
 def _line(name, x, values, ends, truth, seen):

@@ -173,10 +173,10 @@ def _race(explorer):
             drawing = RobotDrawing(ax, robot, explorer.road)
             drawing.ground(-1.3 * robot.L1, explorer.distance + 1.3 * robot.L2)
             drawing.update(flight.W[:, n], flight.v * flight.T[n], gaps=flight.gaps[:, n])
-            for event, landing in _airborne(flight):
-                arm = robot.arms[event.wheel - 1]
-                ends = [flight.v * event.t + arm, flight.v * landing + arm]
-                ax.plot(ends, [-0.006, -0.006], "-", lw=3, color="C3", solid_capstyle="butt")
+            for start, end, pressing in flight.legs:
+                for arm in robot.arms[~np.array(pressing)]:
+                    ends = flight.v * np.array([start, end]) + arm
+                    ax.plot(ends, [-0.006, -0.006], "-", lw=3, color="C3", solid_capstyle="butt")
             ax.set_title(f"{flight.v:g} m/s: {_verdict(flight)}", loc="left", fontsize=10)
             ax.set(xlabel="", ylabel="", yticks=[])
         axes[-1].set_xlabel("x (m)")
@@ -189,14 +189,6 @@ def _flights(explorer):
         fly(explorer.robot, explorer.road, v=v, tfinal=explorer.distance / v)
         for v in explorer.asked
     ]
-
-
-def _airborne(flight):
-    """Pairs of a lift-off and the time of the landing after it, s."""
-    for n, event in enumerate(flight.events):
-        if event.kind == "lift-off":
-            later = [other.t for other in flight.events[n + 1 :] if other.wheel == event.wheel]
-            yield event, later[0] if later else flight.T[-1]
 
 
 def _verdict(flight):

@@ -5,6 +5,7 @@ import textwrap
 
 import numpy as np
 
+from suspension import _checks
 from suspension.practice._order import problem, slope
 from suspension.practice.feedback import Feedback, Wrong, Yours, fill
 
@@ -90,6 +91,7 @@ _HUNTS = {
     "embedded": (embedded, 3, "new - error"),
 }
 STEPS = np.array([20, 40, 80, 160])
+MAX_STEPS = 10**5  # some seconds
 
 
 def _source(name):
@@ -98,9 +100,7 @@ def _source(name):
 
 
 def _hunt(name):
-    if name not in _HUNTS:
-        raise ValueError(f"name must be one of {', '.join(_HUNTS)}, got {name!r}")
-    return _HUNTS[name]
+    return _HUNTS[_checks.one_of("name", name, tuple(_HUNTS))]
 
 
 def listing_of(name):
@@ -153,8 +153,19 @@ def errors_of(name, dts):
     Returns
     -------
     errors : ndarray, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, a step is out of its range, or all runs take more than 10^5 steps.
     """
-    return _errors(_hunt(name)[0], name, dts)
+    run, dts = _hunt(name)[0], _checks.positives("dts", dts, (None,))
+    count = 1 / dts
+    if (np.abs(count - np.maximum(np.round(count), 1)) > 1e-6 * count).any():
+        raise ValueError(f"dts must be steps of which 1 s is a whole number, got {dts}")
+    if not count.sum() <= MAX_STEPS:
+        raise ValueError(f"dts must take at most {MAX_STEPS} steps, got {count.sum():.2g}")
+    return _errors(run, name, dts)
 
 
 def check_hunt(name, order=..., line=..., repaired=...):

@@ -17,6 +17,7 @@ from suspension.report.words import (
     percent,
     quantity,
     ranges,
+    share,
     speed_list,
 )
 
@@ -107,7 +108,7 @@ def choice_table(choices, candidates, limit):
                 "largest acceleration (m/s²)": fixed(one.worst.acceleration[0, 0], 1),
                 r"at rest, of $\delta_{\max{}}$": fixed(-one.robot.equilibrium[0] / limit, 2),
                 r"at most, of $\delta_{\max{}}$": fixed(one.worst.compression[0, 0] / limit, 2),
-                "in the air": part(one.worst.air[0, 0]),
+                "in the air": share(one.worst.air[0, 0]),
             }
         )
     words = ["Changes $d$, and margins in N at the asked speeds:", table(first)]
@@ -123,13 +124,6 @@ def choice_table(choices, candidates, limit):
 def _margin(margin):
     """A margin in N; after a loss it is none."""
     return "lost" if margin < -SHOWN else fixed(margin, 2)
-
-
-def part(fraction):
-    """A part of the time as a percentage, or that it is less than any that was counted."""
-    if fraction == 0:
-        return "–"
-    return f"<{SPACE}0.01{SPACE}%" if fraction < 1e-4 else percent(fraction, 2)
 
 
 def rest_note(fit, robot):

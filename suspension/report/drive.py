@@ -1,9 +1,12 @@
 """The experiments of the page with the sliders, in words that fit the spring."""
 
 from suspension.frequency import speed_in_step
+from suspension.problem import SPEEDS
 from suspension.report.words import SPACE, fixed, join, number, speed_list
 
 __all__ = ["experiments", "presets"]
+
+SLOW, MIDDLE, FAST, _ = SPEEDS
 
 
 def experiments(robot, critical, flips, limit, slider):
@@ -15,7 +18,8 @@ def experiments(robot, critical, flips, limit, slider):
     critical : sequence of float
         Critical speeds within the slider's range, m/s.
     flips : sequence of float
-        Stiffnesses at which the verdict turns at 5 m/s, within the slider's range, N/m.
+        Stiffnesses at which the verdict turns at the third asked speed, within the slider's range,
+        N/m.
     limit : float
         Largest stable step of RK4, s.
     slider : sequence of float
@@ -41,12 +45,12 @@ def presets(robot, flips, limit, slider):
     presets : list of (label, settings)
     """
     long = float(min((dt for dt in slider if dt > limit), default=max(slider)))
-    wrong = {"v": 1.2, "dt": float(max(slider)), "scheme": "Crank-Nicolson"}
+    wrong = {"v": MIDDLE, "dt": float(max(slider)), "scheme": "Crank-Nicolson"}
     found = [
-        ("Faster, safer?", {"v": 0.25}),
-        ("Blow it up" if long > limit else "The longest step", {"v": 1.2, "dt": long}),
+        ("Faster, safer?", {"v": SLOW}),
+        ("Blow it up" if long > limit else "The longest step", {"v": MIDDLE, "dt": long}),
         ("Stable, wrong", wrong),
-        ("The spring", {"v": 5.0} | ({"k": float(flips[0])} if len(flips) else {})),
+        ("The spring", {"v": FAST} | ({"k": float(flips[0])} if len(flips) else {})),
     ]
     speed = speed_in_step(robot)
     if speed is not None:
@@ -70,7 +74,7 @@ def _set(text, **settings):
 def _faster(critical):
     start = (
         f"**Faster, and safer?** Step 1 ms, stiffness as fitted. Push v "
-        f"{_set('from 0.25 m/s', v=0.25)} to the end and watch the least force: its sign "
+        f"{_set(f'from {SLOW:g} m/s', v=SLOW)} to the end and watch the least force: its sign "
     )
     if not len(critical):
         return start + "does not turn anywhere on the slider."
@@ -78,7 +82,7 @@ def _faster(critical):
 
 
 def _blow_up(limit, slider):
-    start = f"**Blow it up.** {_set('RK4 at v = 1.2 m/s', v=1.2, scheme='RK4')}. "
+    start = f"**Blow it up.** {_set(f'RK4 at v = {MIDDLE:g} m/s', v=MIDDLE, scheme='RK4')}. "
     longer = [dt for dt in slider if dt > limit]
     if not longer:
         return start + (
@@ -87,7 +91,7 @@ def _blow_up(limit, slider):
             "and watch the four points move."
         )
     first = min(longer)
-    long = _set(_ms(first), v=1.2, scheme="RK4", dt=float(first))
+    long = _set(_ms(first), v=MIDDLE, scheme="RK4", dt=float(first))
     last = max((dt for dt in slider if dt <= limit), default=None)
     if last is None:
         step = f"to {long}"
@@ -100,7 +104,7 @@ def _blow_up(limit, slider):
 
 
 def _wrong(slider):
-    same = _set("with Crank-Nicolson", v=1.2, dt=float(max(slider)), scheme="Crank-Nicolson")
+    same = _set("with Crank-Nicolson", v=MIDDLE, dt=float(max(slider)), scheme="Crank-Nicolson")
     return (
         f"**Stable, and wrong.** The same {same}, up to {_ms(max(slider))}. Nothing blows up. "
         "Compare with the faint curve behind."
@@ -109,15 +113,13 @@ def _wrong(slider):
 
 def _spring(flips):
     start = (
-        f"**Choose the spring.** {_set('At v = 5 m/s', v=5)}, step 1 ms, soften and stiffen the "
-        "spring. "
+        f"**Choose the spring.** {_set(f'At v = {FAST:g} m/s', v=FAST)}, step 1 ms, soften and "
+        "stiffen the spring. "
     )
     if not len(flips):
         return start + "The verdict stays, but the margin does not: how close does it come to zero?"
-    return (
-        start
-        + f"The verdict turns at {join(_set(number(k), v=5, k=float(k)) for k in flips)}{SPACE}N/m."
-    )
+    places = join(_set(number(k), v=FAST, k=float(k)) for k in flips)
+    return start + f"The verdict turns at {places}{SPACE}N/m."
 
 
 def _in_step(robot):

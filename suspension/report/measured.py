@@ -8,7 +8,7 @@ a `suspension.measured.Study`. After a loss of contact no margin is told: it is 
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.measured import REACH, surviving
+from suspension.measured import REACH, SURE, Share, surviving
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -381,14 +381,14 @@ def sign_table(study):
         }
         for i, v in enumerate(study.asked)
     ]
-    share = study.line.share(0)
+    n = study.line.share(0).n
     note = (
         "In a row: what is not known about the model. In a cell: what is not known about its "
         "parameters. *Kept*: in all draws, with the 95 % interval of the margin; *lost*: in all "
         "draws; else the share of draws in which contact is lost. "
-        f"{share.n} draws that agree leave up to {percent(type(share)(0, share.n).high)} of doubt, "
+        f"{n} draws that agree leave up to {percent(Share(0, n).high)} of doubt, "
         "the 95 % bound for as many independent ones. Signed is what every law says with less than "
-        f"2.5{SPACE}% of doubt."
+        f"{percent(SURE)} of doubt."
     )
     return f"{table(rows)}\n\n{note}"
 

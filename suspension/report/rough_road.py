@@ -6,9 +6,8 @@ without the waves that are too short for the classes.
 
 import numpy as np
 
-from suspension.report.choosing import part
 from suspension.report.rows import table
-from suspension.report.words import SPACE, fixed, percent, speed_list
+from suspension.report.words import SPACE, fixed, percent, share, speed_list
 
 __all__ = ["flights", "rides_table"]
 
@@ -39,7 +38,7 @@ def rides_table(names, speeds, linear, short, found, longer):
                     "share of short waves": percent(short[i][j], 3),
                     "force (N)": _spread(found.force[0, :, i, j], 2),
                     "acceleration (m/s²)": _spread(found.acceleration[:, i, j], 2),
-                    "rear wheel in the air": part(found.air[0, :, i, j].mean()),
+                    "rear wheel in the air": share(found.air[0, :, i, j].mean()),
                     "flights": _spread(flown, 1),
                     "without the short waves": _spread(left, 1),
                 }

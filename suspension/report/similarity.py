@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from suspension.problem import DISTANCE
+from suspension.report.regimes import WIDE
 from suspension.report.rows import table
 from suspension.report.words import SPACE, Caption, count, fixed, join, number, percent, ranges
 
@@ -18,7 +20,6 @@ __all__ = [
     "heavy_wheels",
     "limits_figure",
     "losses",
-    "ratio_table",
     "twin_note",
     "two_ways",
     "vehicle_table",
@@ -26,8 +27,6 @@ __all__ = [
     "window",
     "window_figure",
 ]
-
-ROOM = 1.1  # a window from v to 1.1 v can be driven in; a narrower one is a curiosity
 
 
 class Ride(NamedTuple):
@@ -68,27 +67,6 @@ def groups_table(groups, v):
         (r"$\lambda = L/\sigma$", groups.lam, "half of the wheelbase in bump widths"),
     ]
     return table([{"group": name, "value": number(x), "meaning": says} for name, x, says in rows])
-
-
-def ratio_table(nu, ratios):
-    """How many times the truth a limit is, at each speed.
-
-    Parameters
-    ----------
-    nu : sequence of float
-    ratios : dict of str to sequence of float
-        By the limit's name.
-    """
-    rows = []
-    for i, speed in enumerate(nu):
-        rows.append({r"$\nu$": f"{speed:g}"} | {name: _ratio(r[i]) for name, r in ratios.items()})
-    return table(rows)
-
-
-def _ratio(x):
-    if x >= 100:
-        return ">" + SPACE + "100"
-    return fixed(x, 3) if x < 10 else number(x, 2)
 
 
 def asked(found, speeds):
@@ -160,7 +138,7 @@ def two_ways(found):
     narrow = [
         f"{number(start)} to {number(end)}{SPACE}m/s"
         for start, end in kept
-        if low < start and end < ROOM * start
+        if low < start and end < WIDE * start
     ]
     text = f"There are **{numbers.get(len(words), len(words))} ways** to be safe: "
     text += "; ".join(words[:-1]) + f"; or {words[-1]}."
@@ -175,18 +153,19 @@ def course(v, ratios):
     Parameters
     ----------
     v, ratios : array_like, shape (n,)
-        Speeds, m/s, and at each the highest bump over 1.25 m, over that of a run that goes on.
+        Speeds, m/s, and at each the highest bump on the way of the problem over that of a run that
+        goes on.
     """
     v, ratios = np.asarray(v), np.asarray(ratios)
     worst = int(np.argmax(ratios))
     if ratios[worst] < 1.01:
         return (
-            "For this robot the end of the way at 1.25 m does not matter: its dampers see to it "
-            "that the worst comes on the way, and the curve is the same to a per cent at every "
-            "speed."
+            f"For this robot the end of the way at {DISTANCE:g} m does not matter: its dampers see "
+            "to it that the worst comes on the way, and the curve is the same to a per cent at "
+            "every speed."
         )
     return (
-        f"For this robot the end of the way at 1.25 m matters most at {number(v[worst])}"
+        f"For this robot the end of the way at {DISTANCE:g} m matters most at {number(v[worst])}"
         f"{SPACE}m/s: there the highest bump would be {number(ratios[worst], 2)} times lower if "
         "the run went on, for the swing takes longer than the way lasts."
     )

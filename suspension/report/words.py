@@ -24,6 +24,7 @@ __all__ = [
     "quantity",
     "ranges",
     "seconds",
+    "share",
     "speed_list",
 ]
 
@@ -120,6 +121,17 @@ def confidence(p):
     if p > 0.9999:
         return f">{SPACE}99.99{SPACE}%"
     return fixed(100 * p, 2) + SPACE + "%"
+
+
+def share(fraction):
+    """A part of the time as a percentage, or that it is less than any that was counted.
+
+    >>> share(0), share(3e-5), share(0.0213)
+    ('–', '<\\xa00.01\\xa0%', '2.1\\xa0%')
+    """
+    if fraction == 0:
+        return "–"
+    return f"<{SPACE}0.01{SPACE}%" if fraction < 1e-4 else percent(fraction, 2)
 
 
 def interval(low, high, unit="", decimals=3):

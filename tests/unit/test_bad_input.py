@@ -38,8 +38,9 @@ from suspension import (
 from suspension.animation import animate_robot
 from suspension.branches import branches
 from suspension.energy import energy, landings
-from suspension.explorer import explore
+from suspension.explorer import Prediction, explore
 from suspension.least_force import distance_over
+from suspension.practice import errors_of
 from suspension.rides import rides
 from suspension.road import RoadProfile, RoughRoad
 from suspension.small_angle import full_geometry
@@ -680,7 +681,7 @@ TABLE = [
         "candidate",
         choice.candidate,
         {"robot": ROBOT, "bump": BUMP, "v": [9.0, 10.0]},
-        {"v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], []]},
+        {"v": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1], [], [1], [1, 1]]},
         NO_CROSSING,
     ),
     Row(
@@ -877,7 +878,7 @@ TABLE = [
         {
             "law": [TWO_LAWS],
             "v": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
-            "zooms": [*NOT_NONNEGATIVE, 0.5],
+            "zooms": [*NOT_NONNEGATIVE, 0.5, 18, 10**6],
         },
         {"law": NOT_A_LAW},
     ),
@@ -899,6 +900,16 @@ TABLE = [
         {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": 20.0},
         {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300]},
         {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "surviving",
+        measured.surviving,
+        {"critical": [[1.0, 2.0], [1.1]]},
+        {
+            "critical": [
+                [bad, [1.0]] for bad in (*not_an_array([1.0, 2.0]), [0.0], [-1.0, 1.0], [np.nan])
+            ]
+        },
     ),
     Row(
         "joint_draws",
@@ -1017,6 +1028,7 @@ TABLE = [
             "k": 800,
             "scheme": RK4,
             "time": 0.5,
+            "presets": [("slow", {"v": 1})],
             "view": "robot",
             "compact": True,
             "distance": 2,
@@ -1036,8 +1048,46 @@ TABLE = [
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
             "view": [*NOT_A_NUMBER, "Forces", "all", ["robot"]],
             "compact": [None, "Chart", "yes", 2, ["chart"]],
+            "presets": [[3], ["slow"], [("slow", 3)], [("slow", {"v": np.nan})], [("a", {}, 1)]],
         },
         NO_DRIVE,
+    ),
+    Row(
+        "Prediction",
+        Prediction,
+        {"name": "one", "x": (1, 2), "y": (1, 2), "x_name": "speed v", "y_name": "height"},
+        {
+            axis: [*NEGATIVE, *ZERO, None, "ab", (1,), (1, 2, 3), (2, 1), (0, 1), (1, np.nan)]
+            for axis in "xy"
+        },
+    ),
+    Row(
+        "Prediction.answer",
+        Prediction("two", (1, 2), (1, 2), "speed v", "height").answer,
+        {"x": [1.0, 2.0], "lines": {"follow": [1.0, 2.0]}, "exact": [1.0, np.inf]},
+        {
+            "x": [*not_finite([1.0, 2.0]), [0, 1], [-1, 1]],
+            "lines": [{"follow": line} for line in ([1.0], [-1.0, 1.0], [np.nan, 1.0], "line")],
+            "exact": [*not_an_array([1.0, 2.0]), [1.0], [0.0, 1.0], [np.nan, 1.0]],
+        },
+    ),
+    Row(
+        "errors_of",
+        errors_of,
+        {"name": "slopes", "dts": [0.1, 0.05]},
+        {
+            "name": [*NOT_A_NUMBER, "Slopes"],
+            "dts": [
+                *not_an_array([0.1, 0.05]),
+                0.1,
+                [0.0],
+                [-0.1],
+                [np.nan],
+                [0.03],
+                [2.0],
+                [1e-6],
+            ],
+        },
     ),
 ]
 # Arguments that are fine one by one, and together would take for ever, or lose all digits.

@@ -457,3 +457,9 @@ def test_a_robot_that_would_stand_upright_is_no_fault_of_the_road():
     assert np.isfinite(drive(upright, FlatRoad(), 1.0).margin)
     with pytest.raises(ValueError, match="^robots and law must leave the springs at rest no furth"):
         drive(upright, FlatRoad(), 1.0, geometry="full")
+
+
+def test_very_many_cases_are_refused_before_they_are_written_down():
+    robots, v = np.full((100_000, 1), ROBOT), np.linspace(1, 2, 100_000)
+    with pytest.raises(ValueError, match="v must not be so low or so many"):
+        drive(robots, BUMP, v)

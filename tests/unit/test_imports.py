@@ -1,6 +1,7 @@
 """Data flow one way: a module reaches only those before it, and few import anything heavy."""
 
 import ast
+import re
 from graphlib import TopologicalSorter
 
 import pytest
@@ -109,6 +110,23 @@ def test_every_module_has_its_place():
 @pytest.mark.parametrize("module", CORE)
 def test_a_module_of_the_core_reaches_only_those_below_it(module):
     assert reached(module) <= set(CORE[: CORE.index(module)])
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md"])
+def test_a_map_names_every_module_below_those_on_which_it_stands(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    rows = [
+        [name for name in re.findall(r"`(?:suspension/)?(\w+)(?:\.py)?`", cell) if name in CORE]
+        for cell in re.findall(r"^\| (`.*?`) \|", text, re.MULTILINE)
+    ]
+    named = [name for row in rows for name in row]
+    hidden = {name for name in CORE if name.startswith("_") and page == "README.md"}
+    assert sorted(named) == sorted(set(CORE) - hidden)
+    above = hidden
+    for row in rows:
+        above = above.union(row)
+        for name in row:
+            assert reached(name) <= above, name
 
 
 @pytest.mark.parametrize("module", [module for module in IMPORTS if room(module) in ROOMS])

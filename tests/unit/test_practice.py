@@ -980,7 +980,7 @@ def test_errors_of_a_hunt_fall_as_the_listing_has_it():
     errors = practice.errors_of("slopes", [0.02, 0.01])
     assert 3.5 < errors[0] / errors[1] < 4.5
     assert practice.listing_of("slopes").splitlines()[0] == " 1  def slopes(g, w0, dt, tfinal):"
-    with pytest.raises(ValueError, match="name must be one of trapezoid, "):
+    with pytest.raises(ValueError, match="name must be one of 'trapezoid', "):
         practice.listing_of("wolf")
 
 

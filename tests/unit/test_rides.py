@@ -64,3 +64,16 @@ def test_roads_are_of_one_length():
     with pytest.raises(ValueError, match="roads must be of one length"):
         rides(ROBOT, [ROAD, replace(ROAD, length=5)], 1)
     assert rides(ROBOT, ROAD, []).air.shape == (2, 0)
+
+
+def test_the_roads_of_many_rides_are_refused_before_they_fill_the_memory(monkeypatch):
+    monkeypatch.setattr("suspension.rides.MAX_PLACES", 3000)
+    assert rides(ROBOT, replace(ROAD, seed=1), 5).air.shape == (2,)
+    with pytest.raises(ValueError, match="roads must have at most 3e.03 steps together, got 12"):
+        rides(ROBOT, [replace(ROAD, seed=seed) for seed in (1, 2, 3)], 5)
+
+
+def test_very_many_rides_are_refused_before_they_are_written_down():
+    robots, v = np.full((100_000, 1), ROBOT), np.linspace(1, 2, 100_000)
+    with pytest.raises(ValueError, match="for each of 10000000000"):
+        rides(robots, ROAD, v)

@@ -76,7 +76,7 @@ export function makeRobot({ model }, { k, c }) {
  * c_i dt). R and, for the different abscissae, [c, the sum of their G_i]. Null if the step cannot be
  * solved for.
  */
-export function oneStep({ a, b, c }, A, dt) {
+function oneStep({ a, b, c }, A, dt) {
   const s = b.length,
     n = A.length,
     m = s * n;

@@ -16,7 +16,7 @@ const DASH = [[], [7, 4]]; // rear solid, front dashed
 const REACH = 24; // pixels around a thing that one can take hold of
 
 /** The robot on the road, one scale for both directions; the picture moves along with it. */
-export const robotPanel = {
+const robotPanel = {
   name: "robot",
   title: "The robot on its road",
   live(pen, scene, { now, motion, ghost, pinned }) {
@@ -176,7 +176,7 @@ function levels({ stroke, line, text }, values, py, left, right) {
 }
 
 /** Both forces against time and place. */
-export const forcesPanel = {
+const forcesPanel = {
   name: "forces",
   title: "Normal forces",
   key: ({ settings }, { motion }) => [...Object.values(settings), motion],
@@ -343,7 +343,7 @@ function mark({ dot, text }, { px, py, left, right, top, bottom }, t, N, words, 
 }
 
 /** The least force of each wheel at every speed, with the speeds at which contact is lost shaded. */
-export const speedsPanel = {
+const speedsPanel = {
   name: "speeds",
   title: "Least force at every speed",
   key: ({ settings: { k, c, height, sigma } }, { map }) => (map ? map.key : [k, c, height, sigma]),
@@ -442,7 +442,7 @@ export const speedsPanel = {
 };
 
 /** The region where no mode grows, the modes' lambda dt in it, their rays, and a closer look. */
-export const stabilityPanel = {
+const stabilityPanel = {
   name: "stability",
   title: "Region of absolute stability",
   key: ({ settings: { k, c, dt, scheme_index } }, { held }) => [k, c, dt, scheme_index, held],

@@ -269,7 +269,7 @@ export function distinct(values) {
 }
 
 /** Where a bump of this height is crossed with contact, and whether more speed ever restores it. */
-export function describeChart({ data, curve: { critical, kept }, settings: { height } }) {
+function describeChart({ data, curve: { critical, kept }, settings: { height } }) {
   const bump = height > 0 ? `a bump of ${unit(1000 * height, "mm")}` : "a level road",
     names = distinct(critical),
     [low, high] = data.ranges.v;
