@@ -20,6 +20,8 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 
 from suspension.explorer import (
+    chain_script,
+    chain_style,
     page_script,
     page_style,
     prediction_script,
@@ -31,21 +33,29 @@ PREFIX = "explore:"
 WIDGET = "application/vnd.jupyter.widget-view+json"
 EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
 LABORATORY, WORKSHOP = "suspension-laboratory", "suspension-laboratory se-workshop"
+CHAIN = "suspension-laboratory se-chain"
 BOX = re.compile(f"{EXPLORER}|{PREDICTION}|{LABORATORY}")
-SCRIPTS = {EXPLORER: "explorer.js", PREDICTION: "prediction.js", WORKSHOP: "workshop.js"}
+SCRIPTS = {
+    EXPLORER: "explorer.js",
+    PREDICTION: "prediction.js",
+    WORKSHOP: "workshop.js",
+    CHAIN: "chain.js",
+}
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
-STYLES = {WIDE: "wide.css", WORKSHOP: "workshop.css"}
+STYLES = {WIDE: "wide.css", WORKSHOP: "workshop.css", CHAIN: "chain.css"}
 WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
     "prediction.js": prediction_script,
     "workshop.js": workshop_script,
+    "chain.js": chain_script,
     "explorer.css": page_style,
     "workshop.css": workshop_style,
+    "chain.css": chain_style,
     "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
 }
 

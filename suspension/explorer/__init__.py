@@ -18,6 +18,7 @@ from IPython.display import display
 
 from suspension import _checks
 from suspension.explorer.bundle import bundle, without_comments
+from suspension.explorer.chain import Chain, chain_script, chain_style
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
@@ -48,10 +49,13 @@ from suspension.simulation import simulate
 __all__ = [
     "DTS",
     "SCHEMES",
+    "Chain",
     "Explorer",
     "ExplorerBox",
     "Prediction",
     "Workshop",
+    "chain_script",
+    "chain_style",
     "explore",
     "page_script",
     "page_style",

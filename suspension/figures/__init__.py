@@ -40,6 +40,7 @@ from suspension.figures.similarity import (
     plot_window,
 )
 from suspension.figures.speeds import (
+    plot_branches,
     plot_margin,
     plot_margin_map,
     plot_sampled_margin,
@@ -53,6 +54,7 @@ __all__ = [
     "animate_robot",
     "film",
     "plot_all_forces",
+    "plot_branches",
     "plot_chart",
     "plot_comb",
     "plot_confidence_region",

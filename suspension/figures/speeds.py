@@ -2,12 +2,13 @@
 
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import NullFormatter, NullLocator
 
 from suspension.figures.style import COLOURS, LINES, axes_or_new
 from suspension.forces import WHEEL
 
 __all__ = [
+    "plot_branches",
     "plot_margin",
     "plot_margin_map",
     "plot_sampled_margin",
@@ -151,6 +152,35 @@ def plot_margin_map(v, k, margin, fitted, interval, asked=(), beyond=None, ax=No
     ax.grid(False)
     ax.set(ylabel="stiffness $k$ (N/m)", ylim=(k[0], k[-1]))
     ax.figure.colorbar(filled, ax=ax, label="margin (N)")
+    return ax
+
+
+def plot_branches(branches, fitted, interval=None, asked=(), ax=None):
+    """The critical speeds as curves over the stiffness.
+
+    Parameters
+    ----------
+    branches : sequence of Branch
+        As `suspension.branches.branches` finds them.
+    fitted : float
+        The estimate of the stiffness, N/m.
+    interval : pair of float, optional
+        Its confidence interval, N/m.
+    asked : sequence of float
+        Speeds to mark, m/s.
+    """
+    ax = axes_or_new(ax)
+    for branch in branches:
+        ax.plot(np.exp(branch.points.imag), np.exp(branch.points.real), color="0.2", lw=1.4)
+    if interval is not None:
+        ax.axvspan(*interval, color="C2", alpha=0.3, lw=0)
+    ax.axvline(fitted, color="C2", lw=1.4)
+    for v in asked:
+        ax.axhline(v, color="C1", lw=1, ls="--")
+    ax.set(xscale="log", yscale="log", xlabel="stiffness $k$ (N/m)", ylabel="speed $v$ (m/s)")
+    if branches:
+        ax.set_xlim(*(np.exp(f([f(b.points.imag) for b in branches])) for f in (np.min, np.max)))
+    ax.xaxis.set_minor_formatter(NullFormatter())
     return ax
 
 

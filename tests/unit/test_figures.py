@@ -10,11 +10,13 @@ from helpers import ROOT, near, shaded
 from matplotlib import pyplot as plt
 
 import suspension.figures
+from suspension.branches import Branch
 from suspension.contact import Regimes
 from suspension.energy import Energy
 from suspension.figures import (
     film,
     plot_all_forces,
+    plot_branches,
     plot_chart,
     plot_comb,
     plot_confidence_region,
@@ -93,6 +95,7 @@ DIP = 1 - 1.1 * np.exp(-(((T - 0.55) / 0.02) ** 2))
 LAWS = {"line": 13 * T, "stop": 13 * T + 100 * np.maximum(T - 0.5, 0)}
 MARGINS = {"line": FORCES[0], "stop": FORCES[1] - 9}
 RUNS = {"line": (T, 0.01 * T, 9 - T), "stop": (T, 0.02 * T, 9 - 10 * T)}
+BRANCHES = [Branch(np.log([1, 2]) + 1j * np.log([300, 900]), None, None, None)]
 
 NU, ZETA = np.geomspace(0.05, 100, 60), np.geomspace(0.01, 0.2, 20)
 CHART = {0.0: 0.4 * NU, 0.03: 1 / NU**2 + NU * np.exp(-NU / 9), 0.4: 1 / NU**2 + 1e-3 / NU}
@@ -118,6 +121,7 @@ ON_ONE = {
     "plot_window": lambda ax: plot_window(
         ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
     ),
+    "plot_branches": lambda ax: plot_branches(BRANCHES, 800, (780, 820), [1.2], ax),
     "plot_margin_map": lambda ax: plot_margin_map(
         V, K, 9 * np.sin(np.log(V) + K[:, None] / 300), 800, (780, 820), asked=[1.2], ax=ax
     ),
@@ -484,6 +488,16 @@ def test_ranges_beyond_the_measured_spring_are_hatched_and_named_once():
     assert len(hatched) == 2
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert sum("beyond" in label for label in labels) == 1
+
+
+def test_branches_stand_over_the_stiffness_with_its_interval_and_the_asked_speeds():
+    ax = plot_branches(BRANCHES, 800, (780, 820), [1.2])
+    curve, fitted, asked = ax.lines
+    near(curve.get_xydata(), [[300, 1], [900, 2]], 1e-12)
+    assert list(fitted.get_xdata()) == [800, 800] and list(asked.get_ydata()) == [1.2, 1.2]
+    assert len(ax.patches) == 1 and "(m/s)" in ax.get_ylabel() and "(N/m)" in ax.get_xlabel()
+    alone = plot_branches([], 800)
+    assert not alone.patches and len(alone.lines) == 1
 
 
 def test_a_map_turns_where_the_margin_is_zero():
