@@ -156,7 +156,7 @@ def write_copy(folder, kind, wheel, root=ROOT):
         target.parent.mkdir(parents=True, exist_ok=True)
         notebook = nbformat.read(path, as_version=4)
         nbformat.write(handed_out(notebook, kind, path.parent.name == "workbook"), target)
-    (folder / "data").mkdir()
+    (folder / "data").mkdir(parents=True)
     for path in sorted(root.glob("data/*")):
         if path.suffix in (".csv", ".mat", ".md"):
             shutil.copy(path, folder / "data")

@@ -177,6 +177,7 @@ def test_axe_finds_no_violation(visit):
     """In the light or in the dark; the last that is asked, for the formulas are gone then."""
     tab = visit.tab
     tab.set_viewport_size({"width": 1280, "height": 900})
+    tab.wait_for_timeout(300)  # the page is laid out anew, in steps
     tab.wait_for_selector(SILENT_EXPLORER, state="detached")
     # What formulas look like is hidden from readers of the screen, is of the text's colour, and
     # takes half the time.
