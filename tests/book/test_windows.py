@@ -14,7 +14,7 @@ def test_a_page_is_built_with_the_letters_of_windows(book, tmp_path):
     tree = tmp_path / "book"
     for part in ("suspension", "data", "book", "benchmarks"):
         shutil.copytree(ROOT / part, tree / part, symlinks=True)
-    for part in ("pyproject.toml", "README.md", "LICENSE", "_config.yml"):
+    for part in ("pyproject.toml", "requirements.txt", "README.md", "LICENSE", "_config.yml"):
         shutil.copy(ROOT / part, tree)
     contents = {"format": "jb-book", "root": "book/references"}
     (tree / "_toc.yml").write_text(yaml.safe_dump(contents), encoding="utf-8")
