@@ -21,7 +21,7 @@ ASK = """
 import { readFileSync } from "node:fs";
 import { limitAt } from "./page/chart.js";
 import * as model from "./page/model.js";
-import { describeChart } from "./page/words.js";
+import { describe } from "./page/words.js";
 
 const { facts, tables, settings } = JSON.parse(readFileSync("given.json"));
 const { buffer, byteOffset, length } = Buffer.from(tables.road, "base64");
@@ -47,7 +47,7 @@ for (const { asked, ...s } of settings) {
     const curve = model.makeCurve(data, robot, road, s), { speeds } = curve;
     answer.highest = [...model.makeHighest(data, robot, curve, s)];
     answer.limits = data.chart.limits.map((limit) => [...speeds.map((v) => limitAt(limit, s, v))]);
-    answer.words = describeChart({ data, curve, settings: s });
+    answer.words = describe({ data, curve, settings: s });
     Object.assign(answer, { speeds: [...speeds], critical: curve.critical });
   } else if (asked === "flight" || asked === "flight by the scheme") {
     const method = asked === "flight" ? undefined : { scheme, dt: s.dt };

@@ -14,7 +14,7 @@ import pytest
 import traitlets
 from ipywidgets import SelectionSlider
 from matplotlib.path import Path as Polygon
-from node import run_in_node
+from node import ASK, run_in_node
 
 from suspension import problem
 from suspension.contact import margin, regimes
@@ -68,6 +68,12 @@ def test_a_bundle_keeps_private_names_apart_and_loads_each_module_once(tmp_path)
     for module in ("entry", "bundle"):
         script = f'import it from "./{module}.js";\nconsole.log(it.all.join());'
         assert run_in_node(tmp_path, script).split() == ["once", "3,2,1,1"]
+
+
+def test_the_page_exports_what_the_slow_tests_ask_it(tmp_path):
+    imports = re.findall(r'^import .+ from "\./page/.+$', ASK, re.MULTILINE)
+    assert imports
+    run_in_node(tmp_path, "\n".join(imports))
 
 
 @pytest.mark.parametrize(

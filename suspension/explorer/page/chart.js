@@ -62,7 +62,7 @@ export const chartPanel = {
 };
 
 /** The height of a limit at a speed: a product of powers that Python handed over. */
-const limitAt = ({ amplitude, powers: of }, settings, v) =>
+export const limitAt = ({ amplitude, powers: of }, settings, v) =>
   Object.entries(of).reduce(
     (height, [name, power]) => height * (name === "v" ? v : settings[name]) ** power,
     amplitude,
