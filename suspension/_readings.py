@@ -34,9 +34,12 @@ SHIPPED = FOLDERS  # of what is not read anew for each copy
 FILES = ("spring_data.mat", "spring_data.csv")
 
 # The synthetic stand-in, data/make_spring_data.py: its digest, so that another file under the same
-# name is not taken for it, and the truth behind it.
+# name is not taken for it, and how it was made.
 SYNTHETIC = "4443053ab6a814e209f91ab03635f51ed49172dc75c624a1e632790b21e09b11"
 TRUE_STIFFNESS = 800.0  # N/m
+NOISE = 0.12  # N, standard deviation
+RESOLUTION = 0.02  # N
+SEED = 2086
 
 ROUNDOFF = 1e-9  # how far a displacement may lie outside [0, 1]
 UNITS = {

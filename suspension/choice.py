@@ -22,8 +22,8 @@ from suspension.sweep import drive
 __all__ = [
     "Candidate",
     "Choice",
+    "Choices",
     "Demands",
-    "Findings",
     "candidate",
     "cheapest",
     "demands",
@@ -96,8 +96,8 @@ class Candidate(NamedTuple):
     regimes: Regimes
 
 
-class Findings(NamedTuple):
-    """The choices for several demands, and a close look at each suspension.
+class Choices(NamedTuple):
+    """Choices for several demands, and a close look at each suspension.
 
     Attributes
     ----------
