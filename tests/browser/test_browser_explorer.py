@@ -11,7 +11,7 @@ from urllib.parse import urlencode
 import nbformat
 import numpy as np
 import pytest
-from helpers import PARITY, ROOT, largest_difference, parse, serve_files
+from helpers import PARITY, ROOT, largest_difference, parse, serve_files, swipe
 from lab import run_all, serve
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from PIL import Image
@@ -1542,6 +1542,36 @@ def test_keys_and_typed_numbers_in_jupyterlab(browser, lab):
         stiffness.evaluate(f"e => {{ e.value = {nothing}; e.dispatchEvent(new Event('input')); }}")
         assert 150 <= shown(tab)[0]["k"] <= 2500
     tab.close()
+
+
+def test_by_finger_in_jupyterlab(browser, lab):
+    """What begins on a slider scrolls and sets nothing, or pulls, and the kernel knows."""
+    address, _ = lab
+    context = browser.new_context(viewport={"width": 820, "height": 1180}, has_touch=True)
+    tab = context.new_page()
+    run_all(tab, address, "drive.ipynb")
+    tab.get_by_text("saved 0.8").wait_for(timeout=60_000)
+    sight = tab.locator(".jp-NotebookPanel .jp-WindowedPanel-outer")
+    for name in SLIDERS:
+        slider(tab, name).evaluate("e => e.scrollIntoView({ block: 'center' })")
+        tab.wait_for_timeout(500)
+        before, height = shown(tab)[0], sight.evaluate("e => e.scrollTop")
+        track = slider(tab, name).bounding_box()
+        place = track["x"] + 0.3 * track["width"], track["y"] + track["height"] / 2
+        swipe(tab, *place, 4, 150)
+        assert shown(tab)[0] == before and sight.evaluate("e => e.scrollTop") < height - 50, name
+    handle = track["x"] + 10 + float(slider(tab, SLIDERS[0]).input_value()) * (track["width"] - 20)
+    slider(tab, SLIDERS[0]).evaluate("e => e.scrollIntoView({ block: 'center' })")
+    tab.wait_for_timeout(500)
+    track = slider(tab, SLIDERS[0]).bounding_box()
+    swipe(tab, handle, track["y"] + track["height"] / 2, 60, 3)
+    settle(tab)
+    v = shown(tab)[0]["v"]
+    assert v > 1
+    tab.locator(".jp-CodeCell .cm-content").last.click()
+    tab.keyboard.press("Control+Enter")
+    tab.get_by_text(f"saved {v!r}").wait_for(timeout=60_000)
+    context.close()
 
 
 def save(tab):

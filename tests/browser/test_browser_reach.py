@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from helpers import FLAGS
+from helpers import FLAGS, swipe
 from PIL import Image
 
 from suspension import problem
@@ -93,7 +93,7 @@ window.draw = async (count, seed) => {
         edge = canvas.clientWidth + pixel, low = canvas.clientHeight + pixel;
       const strip = canvas.clientWidth - Math.min(0.36 * canvas.clientWidth, 200) - 2,
         onStrip = ([, , right, top]) => canvas.matches(".se-robot") && right > strip && top < 21;
-      faults.push(...written.filter(onStrip).map(([text]) => [text, "on the strip of the road", n]));
+      faults.push(...written.filter(onStrip).map(([text]) => [text, "is on the strip", n]));
       written.forEach(([text, left, right, top, bottom], i) => {
         seen.add(text);
         if (Math.min(left, top) < -pixel || right > edge || bottom > low)
@@ -130,19 +130,6 @@ def test_no_word_of_a_picture_is_over_another_or_cut(browser, folder, name, widt
 
 
 SWIPE = 150  # pixels
-
-
-def swipe(tab, x, y, dx, dy):
-    """A finger comes down, moves in eight steps and is lifted."""
-    session = tab.context.new_cdp_session(tab)
-    for n in range(9):
-        kind, point = (
-            ("touchMove" if n else "touchStart"),
-            {"x": x + dx * n / 8, "y": y + dy * n / 8},
-        )
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [point]})
-    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    tab.wait_for_timeout(250)
 
 
 STATE = """() => {
@@ -459,6 +446,13 @@ def cut_parts(tab):
       .filter((part) => part.checkVisibility() && part.scrollWidth > part.clientWidth + 1)
       .filter((part) => part.clientWidth) // text within a line has none
       .map((part) => part.value || part.textContent)""")
+
+
+def test_in_jupyterlab_a_finger_gets_the_native_sliders(phone):
+    """Those of ipywidgets do not let it scroll."""
+    phone.evaluate("document.body.className = 'suspension-explorer-frame'")
+    for name in ("v", "dt"):
+        assert phone.locator(TRACK.format(name)).is_visible()
 
 
 def test_large_letters_cut_no_number_and_no_name(enlarged):
