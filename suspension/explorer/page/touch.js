@@ -54,8 +54,10 @@ export function tameSliders(box) {
     touch.slider.value = touch.shown;
   };
   const end = (event) => {
-    if (touch?.state === "waits") event.preventDefault(); // no tap, which a browser would take for a mouse's
-    touch = null;
+    const left = touch;
+    if (!left) return;
+    if (left.state !== "scrolls") event.preventDefault(); // no tap, which a browser would take for a mouse's
+    setTimeout(() => touch === left && (touch = null)); // Firefox tells of the finger once more
   };
   const listeners = Object.entries({
     pointerdown: start,
