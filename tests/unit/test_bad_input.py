@@ -712,7 +712,7 @@ TABLE = [
             NO_CROSSING,
         )
         for function, more, bad in (
-            (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_A_NUMBER}),
+            (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_NONNEGATIVE}),
             (choice.farthest, {"name": "k"}, {"name": ["K", None, 1]}),
         )
     ),
