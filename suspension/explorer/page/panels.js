@@ -365,7 +365,7 @@ const speedsPanel = {
       { curve, data, robot } = scene;
     const { speeds, least, critical } = curve,
       [lowest, highestSpeed] = data.ranges.v;
-    const [left, right, top, bottom] = [38, w - 12, 49, h - 33],
+    const [left, right, top, bottom] = [38, w - 12, h < 150 ? 35 : 49, h - 33], // numbers in one row, or two
       rest = Math.max(...robot.weight);
     const bottomForce = Math.min(...[...least, ...(pinned?.least ?? [])].map((N) => Math.min(...N)));
     const low = Math.max(1.1 * Math.min(bottomForce, -0.4 * rest), -7 * rest),
