@@ -58,7 +58,7 @@ SLOW = """() => {
 
 
 def control_to_picture(page):
-    """Steps of the run; pairs of times in ms, to the painted picture and of script, for all keys."""
+    """Steps of the run; pairs of times in ms, to the painted picture and of script, one a key."""
     page.wait_for_selector(".suspension-explorer canvas")
     page.wait_for_timeout(500)
     sliders = page.locator(".se-control input[type=range]:visible, .noUi-handle")
