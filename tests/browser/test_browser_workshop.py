@@ -301,6 +301,22 @@ def test_a_finger_that_scrolls_turns_nothing(visit):
         assert sliders.nth(nth).input_value() != value
 
 
+def test_letters_twice_as_large_leave_room_for_everything(visit):
+    tab = visit(viewport={"width": 390, "height": 844})
+    tab.add_style_tag(content="html { font-size: 32px }")
+    tab.wait_for_timeout(300)
+    narrow = tab.evaluate(
+        """box => [...document.querySelectorAll(box)].filter((part) =>
+      part.checkVisibility() && part.getBoundingClientRect().width < 120).length""",
+        f"{BOX} :is(dd, input[type=range])",
+    )
+    assert narrow == 0
+    edge = tab.locator(BOX).evaluate("box => box.getBoundingClientRect().right")
+    for select in tab.locator(f"{BOX} select").all():
+        box = select.bounding_box()
+        assert box["x"] + box["width"] <= edge
+
+
 def test_forced_colours_leave_everything_to_be_seen(visit):
     tab = visit(forced_colors="active")
     before = pictures(tab)
