@@ -35,8 +35,8 @@ __all__ = [
 ]
 
 KINDS = (
-    ("joint, p = 3 (the course's)", "scheffe", 3),
-    ("joint, p = 2", "scheffe", 2),
+    (f"joint, p{SPACE}={SPACE}3 (the course's)", "scheffe", 3),
+    (f"joint, p{SPACE}={SPACE}2", "scheffe", 2),
     ("Bonferroni, two at once", "bonferroni", 2),
     ("one at a time", "individual", 1),
 )
@@ -112,11 +112,16 @@ def intervals(fit):
             {
                 "interval": name,
                 "standard errors": fixed(fit.width(method=method, p=p), 3),
-                r"$\beta_0$ (N)": interval(*ends[0]),
-                r"$\beta_2$ (N)": interval(*ends[2]),
+                r"$\beta_0$ (N)": _unbroken(ends[0]),
+                r"$\beta_2$ (N)": _unbroken(ends[2]),
             }
         )
     return table(rows)
+
+
+def _unbroken(ends):
+    """An interval for a cell of a table."""
+    return interval(*ends).replace(" ", SPACE)
 
 
 def joint_intervals(fit):

@@ -122,8 +122,9 @@ def verdict_table(runs, compression):
 def table_note(runs):
     """What the forces in a verdict table are."""
     note = (
-        "Where contact is kept the smaller of the two is the margin. The further it is from zero, "
-        "the less a numerical error, another spring or a heavier load could turn the verdict."
+        "Where contact is kept, the smaller of the two least forces is the margin. The further it "
+        "is from zero, the less can a numerical error, another spring or a heavier load turn the "
+        "verdict."
     )
     if any(_lost(runs)):
         note += (
