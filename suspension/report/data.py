@@ -213,7 +213,7 @@ def stiffness_sentence(fit, load):
         The force that one pair of springs carries at rest, N.
     """
     parts = [
-        "The data do not contradict a line through the origin: who accepts it, takes its slope."
+        "The data do not contradict a line through the origin; one may take its slope."
         if fit.linearity().linear
         else "The data contradict a line through the origin, so the slope of the best such line is "
         "no more than a mean over the measured range.",
