@@ -111,7 +111,7 @@ def _given(x):
 def matrix_rows(A):
     """The entries of a matrix, each under its row and column."""
     return [
-        {"$A_{ij}$": f"$i = {i}$", **{f"$j = {j}$": _entry(a) for j, a in enumerate(row, 1)}}
+        {"$A_{ij}$": f"${{i = {i}}}$", **{f"$j = {j}$": _entry(a) for j, a in enumerate(row, 1)}}
         for i, row in enumerate(np.asarray(A), 1)
     ]
 
@@ -145,7 +145,7 @@ def mode_rows(robot):
 
 def _complex(z):
     sign = "−" if z.imag < 0 else "+"
-    return f"{fixed(z.real, 4)} {sign} {fixed(abs(z.imag), 4)}i"
+    return f"{fixed(z.real, 4)}{SPACE}{sign}{SPACE}{fixed(abs(z.imag), 4)}i"
 
 
 def stability_rows(scheme, eigenvalues, dts):
