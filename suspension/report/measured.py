@@ -109,21 +109,26 @@ def statics_table(laws, robot):
 
 def verdict_table(asked, runs):
     """Kept, with the least force, or lost, by which wheel and where: a row for each speed."""
+    first = {WHEEL[wheel] for run in runs.values() for wheel in run.wheel[~run.kept]}
     rows = [
-        {"v (m/s)": f"{v:g}", **{name: _cell(run, i) for name, run in runs.items()}}
+        {"v (m/s)": f"{v:g}", **{name: _cell(run, i, len(first) > 1) for name, run in runs.items()}}
         for i, v in enumerate(asked)
     ]
-    note = (
-        "*Kept* with the least force of both wheels; *lost* with the wheel that leaves the ground "
-        "first and the place $X$ of the body then."
-    )
-    return f"{table(rows)}\n\n{note}"
+    note = []
+    if any(run.kept.any() for run in runs.values()):
+        note.append("*Kept* with the least force of both wheels.")
+    if first:
+        note.append("*Lost* with the place $X$ of the body then.")
+    if len(first) == 1:
+        note.append(f"It is always the {first.pop()} wheel that leaves the ground first.")
+    return f"{table(rows)}\n\n{' '.join(note)}"
 
 
-def _cell(run, i):
+def _cell(run, i, tell_wheel):
     if run.kept[i]:
         return f"kept, {fixed(run.margin[i], 2)}{SPACE}N"
-    return f"lost, {WHEEL[run.wheel[i]]}, {fixed(run.lost[i], 4)}{SPACE}m"
+    wheel = f"{WHEEL[run.wheel[i]]}, " if tell_wheel else ""
+    return f"lost, {wheel}{fixed(run.lost[i], 4)}{SPACE}m"
 
 
 def verdict_sentence(asked, runs):
@@ -221,7 +226,8 @@ def which_stay(critical):
         return "**All of them.**" if n else "**None of them.**"
     which = {n: "The slow ones", -n: "The fast ones"}
     where = n if kept == line[:n] else -n if kept == line[-n:] else 0
-    return f"**{which.get(where, 'Some of them')}:** {speed_list(kept)}, of {spelled(len(line))}."
+    share = f"{spelled(n)} of {spelled(len(line))}"
+    return f"**{which.get(where, 'Some of them')}:** {speed_list(kept)}, {share}."
 
 
 def _verb(verb, things):
@@ -235,9 +241,9 @@ def run_caption(v, shown, delta_max):
         for name, (X, p, _) in shown.items()
     )
     text = (
-        f"Front spring and front wheel at {v:g}{SPACE}m/s. The stop begins at the line at 1. Each "
-        "curve ends where a wheel leaves the ground, or at the end of the figure. The force is "
-        f"drawn linearly up to 10{SPACE}N, logarithmically beyond."
+        f"Front spring and front wheel at {v:g}{SPACE}m/s. The stop begins at 1. Each curve ends "
+        "where a wheel leaves the ground, or with the figure. The axis of the force is linear up "
+        f"to 10{SPACE}N and logarithmic beyond."
     )
     alt = (
         "Two panels against position: compression of the front spring over delta_max, and normal "
@@ -294,8 +300,8 @@ def stiffness_sentence(turns):
     if steady:
         words = [f"At {speed_list(steady)} the verdict is the same with every stop that was tried."]
     words += [
-        f"At {speed_list([v])} it turns at {join(number(r) for r in ratios)} times the stiffness "
-        "of the spring."
+        f"At {speed_list([v])} it turns where the stop is {join(number(r) for r in ratios)} times "
+        "as stiff as the spring."
         for v, ratios in turns.items()
         if len(ratios)
     ]
@@ -527,6 +533,6 @@ def _measure(study):
             "does not matter there."
         )
     return (
-        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop "
-        "and measure where that is and how stiff: no reading below it can tell."
+        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop. "
+        "Measure where the stop is and how stiff: no reading below it can tell."
     )

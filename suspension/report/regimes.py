@@ -526,4 +526,4 @@ def lesson(regimes, balances):
     )
     if any(balance.pulled for balance in balances):
         words += ", and the damper, meant to hold the robot down, pulls a wheel off the ground"
-    return f"{words}: only the numbers tell what comes of it."
+    return f"{words}. Only the numbers tell which of these decides at a speed."

@@ -91,8 +91,8 @@ def sampled_direction(sampled, exact):
     if off.max() <= EXACT:
         return f"**Too high only.** {looked} none lies below the exact one, and here none above."
     return (
-        f"**Too high only.** {looked} none lies below the exact one, and the highest lies {high} "
-        "above."
+        f"**Too high only.** {looked} none lies below the exact one, and the worst lies {high} "
+        "above it."
     )
 
 

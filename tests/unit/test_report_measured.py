@@ -170,7 +170,14 @@ def test_which_verdicts_turn_is_answered(line, stop, words):
 
 def test_a_table_tells_where_contact_is_lost():
     table = plain(part.verdict_table(ASKED, {"line": run(5, -1)}))
-    assert "kept, 5.00 N" in table and "lost, front, 0.2000 m" in table
+    assert "kept, 5.00 N" in table and "lost, 0.2000 m" in table
+    assert "always the front wheel" in table and "*Kept*" in table and "*Lost*" in table
+    both = run(-5, -1)
+    both.wheel[:] = 1, 2
+    table = plain(part.verdict_table(ASKED, {"line": both}))
+    assert "lost, rear, 0.2000 m" in table and "lost, front, 0.2000 m" in table
+    assert "always" not in table and "*Kept*" not in table
+    assert "*Lost*" not in part.verdict_table(ASKED, {"line": run(5, 1)})
 
 
 def test_the_full_geometry_turns_a_verdict_or_does_not():
@@ -206,9 +213,9 @@ def test_critical_speeds_stay_or_go(line, other, words):
         ([], [3.0], "**The line has none in the range.**"),
         ([0.4, 8.0], [0.41, 8.1], "**All of them.**"),
         ([0.4, 8.0], [3.0], "**None of them.**"),
-        ([0.4, 8.0, 20.0], [0.41], "**The slow ones:** 0.4 m/s, of three."),
-        ([0.4, 8.0, 20.0], [8.1, 20.1], "**The fast ones:** 8 and 20 m/s, of three."),
-        ([0.4, 8.0, 20.0], [8.1], "**Some of them:** 8 m/s, of three."),
+        ([0.4, 8.0, 20.0], [0.41], "**The slow ones:** 0.4 m/s, one of three."),
+        ([0.4, 8.0, 20.0], [8.1, 20.1], "**The fast ones:** 8 and 20 m/s, two of three."),
+        ([0.4, 8.0, 20.0], [8.1], "**Some of them:** 8 m/s, one of three."),
     ],
 )
 def test_which_critical_speeds_stay_is_answered(line, other, words):
@@ -237,7 +244,9 @@ def test_how_the_acceleration_grows_is_answered(powers, words):
 def test_the_stiffness_of_the_stop_matters_or_does_not():
     assert "every stop that was tried" in part.stiffness_sentence({1.2: []})
     turn = plain(part.stiffness_sentence({1.2: [], 10: [0.5793]}))
-    assert "At 10 m/s it turns at 0.579 times" in turn and "At 1.2 m/s" in turn
+    assert (
+        "At 10 m/s it turns where the stop is 0.579 times as stiff" in turn and "At 1.2 m/s" in turn
+    )
     assert "the same" not in part.stiffness_sentence({10: [2.0, 30.0]})
     assert not faults(part.stiffness_caption([0.1, 1, 10], {10: [2, 1, 3]}).alt)
 

@@ -142,9 +142,9 @@ def test_verdicts_read_from_samples_are_counted():
     ("off", "words"),
     [
         ([0, 0.2, 1.04], "**Too high only.** Of 3 least values that were read from samples none"),
-        ([0, 0.2, 1.04], "the highest lies 1.0 N above"),
+        ([0, 0.2, 1.04], "the worst lies 1.0 N above it"),
         ([0, 1e-9, 0], "and here none above"),
-        ([0, -1e-9, 0.3], "the highest lies 0.30 N above"),
+        ([0, -1e-9, 0.3], "the worst lies 0.30 N above it"),
         ([0.1, -0.02, 0.3], "**Either way, here.** Of 3 least values that were read from samples"),
         ([0.1, -0.02, 0.3], "by up to 0.020 N"),
     ],
