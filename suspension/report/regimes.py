@@ -54,6 +54,7 @@ __all__ = [
 
 WIDE = 1.1  # a range of speeds from v to 1.1 v can be driven in; a narrower one is a curiosity
 APART = 1.01  # two ranges, one to v, the other from 1.01 v on, are told as two
+SMALL_ANGLE = "../notebooks/06-how-sure.ipynb#and-the-small-angle"
 HALVED = 0.05  # a factor so near to two, relative, is called two
 ORDINALS = "first second third fourth fifth sixth".split()
 
@@ -361,7 +362,8 @@ def consequence_table(by_stiffness):
     wide = {}
     for row in rows:
         found = wide.setdefault(row["stiffness"], {"stiffness": row["stiffness"]})
-        found[f"{ORDINALS[len(found) - 1]} (m/s)"] = f"{row[speed]} ({row[interval]})"
+        ends = row[interval].replace(" ", SPACE)  # a line ends before the bracket
+        found[f"{ORDINALS[len(found) - 1]} (m/s)"] = f"{row[speed]} ({ends})"
     return table(list(wide.values()))
 
 
@@ -506,7 +508,8 @@ def doubt(regimes, beyond, delta_max, tilt):
     return (
         f"{spring} As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} "
         rf"degrees, where $\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by "
-        f"{cosine}; [in the air](../notebooks/07-flight.ipynb) it is another matter."
+        f"{cosine} ([what that does to the critical speeds]({SMALL_ANGLE})). "
+        "[In the air](../notebooks/07-flight.ipynb) it is another matter."
     )
 
 
