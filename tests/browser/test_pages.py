@@ -260,6 +260,47 @@ def test_the_search_survives_any_word(browser, strict_site):
         assert not visit.complaints
 
 
+WANTED = {  # what people type, and the page that a reader then wants
+    "transmissibility": "notebooks/09-filter",
+    "MATLAB": "book/data",
+    "confidence": "notebooks/01-regression",
+    "explorer": "notebooks/12-drive",
+    "stiff": "notebooks/03-runge-kutta",
+    "resonance": "notebooks/09-filter",
+    "flight": "notebooks/07-flight",
+    "A-stable": "notebooks/02-crank-nicolson",
+    "Butcher": "notebooks/03-runge-kutta",
+    "order": "notebooks/20-accuracy",
+    "damping": "notebooks/02-crank-nicolson",
+    "regression": "notebooks/01-regression",
+    "outliers": "notebooks/13-laboratory",
+    "eigenvalues": "notebooks/02-crank-nicolson",
+    "rough road": "notebooks/11-rough-road",
+    "car": "notebooks/04-one-chart",
+    "energy": "notebooks/07-flight",
+    "hysteresis": "notebooks/01-regression",
+    "download": "book/index",
+    "exercises": "book/workbook",
+    "critical speed": "notebooks/05-how-we-know",
+    "notation": "book/model",
+    "Crank-Nicolson": "notebooks/02-crank-nicolson",
+    "choosing": "notebooks/10-choosing",
+}
+
+
+def test_the_search_puts_the_page_that_is_wanted_among_the_first_three(browser, strict_site):
+    with opened(browser, f"{strict_site}search.html", 1280) as visit:
+        first = {}
+        for words in WANTED:
+            visit.tab.goto(f"{strict_site}search.html?q={words}")
+            visit.tab.get_by_text(SEARCHED).first.wait_for()
+            links = visit.tab.locator("#search-results li a").evaluate_all(
+                "links => links.slice(0, 3).map((link) => new URL(link.href).pathname)"
+            )
+            first[words] = [link.lstrip("/").removesuffix(".html") for link in links]
+    assert not {words: pages for words, pages in first.items() if WANTED[words] not in pages}
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_only_pages_with_formulas_wait_for_their_fonts(book, page):
     text = (book / f"{page}.html").read_text(encoding="utf-8")
