@@ -52,17 +52,17 @@ def table(rows):
     return "\n".join([head, rule, *body])
 
 
-def verdict(run, compression):
+def verdict(run, compression=None):
     """One row of a verdict table: kept or lost, where, each wheel's least force, and the spring.
 
     Parameters
     ----------
     run : Trajectory
-    compression : float
+    compression : float, optional
         Largest compression of a spring while both wheels press, over delta_max.
     """
     loss = run.loss
-    return {
+    row = {
         "v (m/s)": f"{run.v:g}",
         "contact": "lost" if loss else "kept",
         "wheel": WHEEL[loss.wheel] if loss else "–",
@@ -70,8 +70,10 @@ def verdict(run, compression):
         "at X (m)": _place(run.v * loss.t, run.v * run.dt) if loss else "–",
         "least $N_1$ (N)": _least(run, 0),
         "least $N_2$ (N)": _least(run, 1),
-        r"largest $\delta/\delta_{\max}$": fixed(compression, 2),
     }
+    if compression is None:
+        return row
+    return row | {r"largest $\delta/\delta_{\max}$": fixed(compression, 2)}
 
 
 def _place(x, spacing):

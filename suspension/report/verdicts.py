@@ -64,16 +64,16 @@ def same_at_half_the_step(runs, halved):
     return f"{sentence} Where contact is kept, the least forces move by {moved}."
 
 
-def same_by_another_scheme(runs, others, compression):
+def same_by_another_scheme(runs, others):
     """Answer 10(i): where contact is lost, and whether Part II, `others`, says the same."""
     agree = "agree" if _lost(runs) == _lost(others) else "do **not** agree"
     after = " and of the forces “after” a loss" if any(_lost(runs)) else ""
     parts = [
         lost_sentence(runs),
-        verdict_table(runs, compression),
+        table([verdict(run) for run in runs]),
         f"The verdicts {agree} with those of Part II; the least forces differ by "
-        f"{_difference(runs, others)}. What is said of the spring{after} in "
-        f"[Question 6]({QUESTION_6}) holds here as well.",
+        f"{_difference(runs, others)}. What [Question 6]({QUESTION_6}) says of the spring{after} "
+        "holds here, too.",
     ]
     return "\n\n".join(parts)
 

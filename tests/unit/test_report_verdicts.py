@@ -121,12 +121,12 @@ def test_one_speed_reads_well():
 def test_another_scheme_agrees_or_is_told_not_to():
     for robot in (Robot(793, 793), Robot(250, 250), *OTHERS.values()):
         runs, others = drives(robot, scheme=RK4), drives(robot)
-        text = part.same_by_another_scheme(runs, others, compressions(robot))
+        text = part.same_by_another_scheme(runs, others)
         assert not faults(text)
         assert "The verdicts agree with those of Part II" in text
         assert ("“after” a loss" in text) == any(run.loss for run in runs)
     other = drives(Robot(987, 987))
-    text = part.same_by_another_scheme(drives(Robot(793, 793)), other, compressions(robot))
+    text = part.same_by_another_scheme(drives(Robot(793, 793)), other)
     assert "do **not** agree" in text
 
 
