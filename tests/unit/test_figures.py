@@ -567,6 +567,20 @@ def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
     assert len(without.collections) < len(ax.collections)
 
 
+@pytest.mark.parametrize("blank", ["kept", "lost"])
+def test_the_side_of_which_a_map_says_nothing_has_one_tone(blank):
+    contact = 3 + C[:, None] - K / 100
+    ax = plot_demand_map(K, C, contact, [0, 5], {}, "margin (N)", contact, blank)
+    field = ax.collections[1]  # above the map, below the line
+    k, c = np.concatenate([path.vertices for path in field.get_paths()]).T
+    sign = 1 if blank == "kept" else -1
+    inside = sign * (3 + c - k / 100)
+    near([inside.min(), inside.max()], [0, (sign * contact).max()], 1e-12)
+    assert f"contact {blank}" in ax.get_legend_handles_labels()[1]
+    every = plot_demand_map(K, C, contact, [0, 5], {}, "margin (N)", 0 * contact - 1, blank)
+    assert len(every.collections) == (1 if blank == "kept" else 2)
+
+
 def test_best_compromises_that_lose_contact_are_rings():
     margin = np.where(C > 2, C, 0.0)
     ax = plot_front(C / 100, 1 + C, margin, {"now": (0.02, 2)})
