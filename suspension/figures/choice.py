@@ -1,6 +1,7 @@
 """Figures of Parts IX to XI: the robot as a filter, maps for a choice, a rough road."""
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from suspension.figures.speeds import speed_axis
 from suspension.figures.style import COLOURS, LINES, MARKERS, axes_or_new
@@ -38,8 +39,11 @@ def plot_gains(wavelength, heave, pitch, blind, axes):
             ax.axvline(place, color="0.6", lw=0.8, ls=":")
         for i, (v, gain) in enumerate(gains.items()):
             ax.plot(wavelength, gain, color=f"C{i}", ls=LINES[i], label=f"{v:g} m/s")
-        ax.set(xscale="log", xlabel="wavelength (m)", ylabel=name, ylim=(0, None))
-        ax.set_xlim(wavelength[0], wavelength[-1])
+        high = max(np.max(gain) for gain in gains.values())
+        ax.set(xscale="log", yscale="log", ylim=(high / 1000, 2 * high))
+        ax.set(xlabel="wavelength (m)", ylabel=name, xlim=(wavelength[0], wavelength[-1]))
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes[0].legend()
     return axes
 

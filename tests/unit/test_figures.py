@@ -554,6 +554,15 @@ def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
     near(np.polyfit(*second.get_data(), 1), [0, 0.5], 1e-12)
 
 
+def test_what_the_wheelbase_holds_back_is_seen_beside_the_resonance():
+    gain = np.array([1e-3, 0.1, 16.0, 1.0])
+    _, axes = plt.subplots(1, 2)
+    plot_gains(V[:4], {1.2: gain}, {1.2: 2 * gain}, ([0.4], [0.2]), axes)
+    for ax, high in zip(axes, (16, 32)):
+        low, top = ax.get_ylim()
+        assert ax.get_yscale() == "log" and low < high / 500 and high < top
+
+
 def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
     marks, values = {"now": (800, 1.5), "then": (400, 2)}, K / 100 - C[:, None] - 3
     ax = plot_demand_map(K, C, 9 + values, [0, 5, 9], marks, "acceleration (m/s²)", values)
