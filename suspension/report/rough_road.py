@@ -69,8 +69,9 @@ def flights(names, speeds, linear, found, longer):
         if not flown.any():
             below = percent(1 - 0.05 ** (1 / len(flown)))
             lines.append(
-                f"**{_subject(name)} flew on none of {len(flown)} roads.** With 95{SPACE}% confidence it "
-                f"flies on less than {below} of such roads; that many roads can tell no more."
+                f"**{_subject(name)} flew on none of {len(flown)} roads.** With 95{SPACE}% "
+                f"confidence it flies on less than {below} of such roads; that many roads can tell "
+                "no more."
             )
             continue
         flies, every = flown.any(axis=0), flown.all(axis=0)

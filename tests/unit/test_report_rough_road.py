@@ -30,7 +30,9 @@ def plain(text):
 
 def test_who_flies_where():
     text = plain(part.flights(NAMES, SPEEDS, LINEAR, SOME, ridden([[0, 1], [0, 1], [0, 1]])))
-    assert "**As it is, the robot flies on every road at 5 m/s and on some roads at 1.2 m/s.**" in text
+    assert (
+        "**As it is, the robot flies on every road at 5 m/s and on some roads at 1.2 m/s.**" in text
+    )
     assert "scatters less than the linear robot's" in text
     assert "Without the short waves it flies only at 5 m/s." in text
     assert "**With the suspension “soft” it flew on none of 3 roads.** With 95 % confidence" in text
