@@ -107,8 +107,8 @@ def test_the_students_copy_holds_no_solution_and_no_answer(copies):
         assert not [solution for solution in solutions if solution in text], path
         if path.parent.name == "notebooks":
             whole = sources(wanted[path.name].parent)[wanted[path.name]]
-            asked = re.findall(r"^### Exercise.*|^### Proof.*", whole, re.MULTILINE)
-            assert re.findall(r"^### Exercise.*|^### Proof.*", text, re.MULTILINE) == asked
+            stays = re.compile(r"^#+ (?:Exercise|Proof|Check)\b.*", re.MULTILINE)
+            assert stays.findall(text) == stays.findall(whole)
 
 
 def test_what_stands_before_and_after_a_solution_stays():

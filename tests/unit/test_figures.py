@@ -99,9 +99,9 @@ BRANCHES = [Branch(np.log([1, 2]) + 1j * np.log([300, 900]), None, None, None)]
 
 NU, ZETA = np.geomspace(0.05, 100, 60), np.geomspace(0.01, 0.2, 20)
 CHART = {0.0: 0.4 * NU, 0.03: 1 / NU**2 + NU * np.exp(-NU / 9), 0.4: 1 / NU**2 + 1e-3 / NU}
-PATHS = {
-    "car,\nhump": (NU[20:40], 0.6, NU[20:40] > 2),
-    "coach,\njoint": (NU[40:], 0.01, NU[40:] > 999),
+RIDES_OVER = {
+    "car,\nhump": (Regimes([5, 40, 60], [False, True], "km/h"), 44.0),
+    "coach,\njoint": (Regimes([50, 300], [False], "km/h"), np.nan),
 }
 
 ON_ONE = {
@@ -117,7 +117,7 @@ ON_ONE = {
         NU, CHART, {"skim": 9 / NU}, (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]), 0.03, ax=ax
     ),
     "plot_comb": lambda ax: plot_comb(NU, NU, NU / 2, 2 * NU, 1.1 * NU, ax),
-    "plot_vehicles": lambda ax: plot_vehicles(NU, CHART, PATHS, ax=ax),
+    "plot_vehicles": lambda ax: plot_vehicles(RIDES_OVER, ax),
     "plot_window": lambda ax: plot_window(
         ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
     ),
@@ -187,7 +187,7 @@ PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
 PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|m/s²|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|km/h|m/s²|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -678,16 +678,12 @@ def test_a_limit_is_named_along_its_line():
     assert 290 < turned["follow"] < 330 and 0 < turned["throw"] < 60
 
 
-def test_a_vehicle_is_drawn_apart_where_it_loses_contact():
-    ax = plot_vehicles(NU, CHART, {"car": PATHS["car,\nhump"]})
-    kept, lost = (line.get_xydata() for line in ax.lines[3:5])
-    assert not (np.isfinite(kept[:, 1]) & np.isfinite(lost[:, 1])).any()
-    assert (kept[np.isfinite(lost[:, 1]), 0] > 2).all()
-
-
-def test_names_of_vehicles_of_nearly_one_height_stand_on_two_sides():
-    ax = plot_vehicles(
-        NU, CHART, {"a": (NU[9:20], 0.5, NU[9:20] > 9), "b": (NU[9:20], 0.52, NU[9:20] > 9)}
-    )
-    sides = [text.get_ha() for text in ax.texts if text.get_text() in "ab"]
-    assert sorted(sides) == ["left", "right"]
+def test_a_vehicle_has_a_row_in_two_colours_with_its_critical_speed_on_it():
+    ax = plot_vehicles(RIDES_OVER)
+    car = [line for line in ax.lines if len(line.get_ydata()) and not any(line.get_ydata())]
+    kept, lost, critical, heavy = (line.get_xdata() for line in car)
+    assert list(kept) == [5, 40] and list(lost) == [40, 60]
+    assert list(critical) == [40] and list(heavy) == [44]
+    assert car[0].get_color() != car[1].get_color()
+    assert [text.get_text() for text in ax.get_yticklabels()] == list(RIDES_OVER)
+    assert [text.get_text() for text in ax.texts] == ["40"]
