@@ -255,7 +255,7 @@ def test_it_draws_on_both_axes_it_is_given_and_returns_them(name):
 def test_without_axes_it_opens_one_figure_whose_axes_have_labels_with_units(name):
     ax = ON_ONE[name](None)
     assert ax.has_data() and len(plt.get_fignums()) == 1
-    if name == "plot_sensitivities":  # its axis across holds names
+    if name in ("plot_sensitivities", "plot_vehicles"):  # an axis of theirs holds names
         return
     if name == "plot_errors":  # its x may be a step or a cost: the caller says which
         ax.set(xlabel="step (s)", ylabel="error (N)")
