@@ -330,14 +330,29 @@ def limit_table(eigenvalues, dt):
     )
 
 
-def order_caption(v, orders):
-    """Caption of the error of RK4 on each law, with the observed orders."""
+def order_caption(v, orders, unread=()):
+    """Caption of the error of RK4 on each law.
+
+    Parameters
+    ----------
+    v : float
+        Speed, m/s.
+    orders : dict of str to float
+        Observed, for each law of which one can be read.
+    unread : sequence of str
+        The other laws.
+    """
     each = join((f"{fixed(order, 1)} ({name})" for name, order in orders.items()), none="none")
-    return Caption(
+    text = (
         f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside a run of DOP853 "
-        f"with steps that are short at every kink. Observed orders: {each}.",
-        f"Error against time step on logarithmic axes; observed slopes: {each}.",
+        f"with steps that are short at every kink. Observed orders: {each}."
     )
+    if unread:
+        text += (
+            f" With {join(unread)} the error is near what that run can tell, and no order can be "
+            "read."
+        )
+    return Caption(text, f"Error against time step on logarithmic axes; observed slopes: {each}.")
 
 
 # --- how well it is known -------------------------------------------------------------------------

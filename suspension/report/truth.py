@@ -22,6 +22,7 @@ __all__ = [
     "convergence_caption",
     "dip_caption",
     "heave_caption",
+    "missed_sentence",
     "missed_table",
     "observed_orders",
     "panels",
@@ -334,6 +335,24 @@ def missed_table(speeds, missed):
         f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])}{SPACE}"
         f"m/s, beside a critical one, the loss of contact goes unnoticed at\n\n{rows}"
     )
+
+
+def missed_sentence(coarse, sharp):
+    """What a sharper tolerance is worth to an event.
+
+    Parameters
+    ----------
+    coarse, sharp : sequence of float
+        The speeds at which an integrator saw no loss, by itself and by a method of higher order
+        with a sharp tolerance.
+    """
+    promise = (
+        "A tolerance bounds the error at the ends of the steps and promises nothing between them."
+    )
+    if not len(coarse) and not len(sharp):
+        return promise
+    more = np.sign(len(sharp) - len(coarse))
+    return f"The better method misses {('as many', 'more', 'fewer')[more]}. {promise}"
 
 
 def dip_caption(v, was_missed):

@@ -264,7 +264,10 @@ def test_the_caption_tells_the_observed_orders():
     caption = part.order_caption(10, {"rubber stop": 2.1, "metal stop": 1.9})
     for text in caption:
         assert "2.1 (rubber stop) and 1.9 (metal stop)" in text and not faults(text)
-    assert not faults(part.order_caption(10, {}).text)
+        assert "no order" not in text
+    unread = part.order_caption(10, {"rubber stop": 2.1}, ["no stop"]).text
+    assert "With no stop the error is near" in unread and "no order can be read" in unread
+    assert not faults(unread) and not faults(part.order_caption(10, {}, ["metal stop"]).text)
 
 
 # --- how well it is known -------------------------------------------------------------------------

@@ -126,6 +126,19 @@ def test_dips_that_are_seen_and_dips_that_are_not():
         assert words in caption.text and not faults(caption.text) and not faults(caption.alt)
 
 
+@pytest.mark.parametrize(
+    ("coarse", "sharp", "words"),
+    [
+        ([1], [1, 2, 3], "The better method misses more. A tolerance"),
+        ([1, 2], [1, 2], "The better method misses as many. A tolerance"),
+        ([1, 2], [], "The better method misses fewer. A tolerance"),
+        ([], [], "A tolerance bounds"),
+    ],
+)
+def test_a_sharp_tolerance_promises_nothing_between_steps(coarse, sharp, words):
+    assert part.missed_sentence(coarse, sharp).startswith(words)
+
+
 def test_verdicts_read_from_samples_are_counted():
     speeds, exact = np.array([19.0, 20.0, 21.0]), np.array([0.2, -0.1, -0.3])
     sampled = {0.001: exact + 0.4, 0.0003: exact + 0.15, 0.0001: exact}
