@@ -16,7 +16,8 @@ export const isPull = (dx, dy, held = false) =>
 export function tameSliders(box) {
   let touch = null; // the slider under a finger, and where it was
 
-  const start = ({ target, pointerType, clientX, clientY }) => {
+  const start = ({ target, pointerType, isPrimary, clientX, clientY }) => {
+    if (!isPrimary) return scroll(); // two fingers enlarge the page
     touch = null;
     if (pointerType !== "touch" || !target.matches("input[type=range]")) return;
     const { left, width } = target.getBoundingClientRect(),
@@ -34,8 +35,8 @@ export function tameSliders(box) {
       state: "waits",
     };
   };
-  const move = ({ pointerType, clientX, clientY }) => {
-    if (!touch || pointerType !== "touch" || touch.state === "scrolls") return;
+  const move = ({ pointerType, isPrimary, clientX, clientY }) => {
+    if (!touch || pointerType !== "touch" || !isPrimary || touch.state === "scrolls") return;
     const dx = clientX - touch.x;
     if (touch.state === "waits" && !isPull(dx, clientY - touch.y, touch.held)) return;
     touch.state = "pulls";
@@ -53,8 +54,10 @@ export function tameSliders(box) {
     touch.slider.value = touch.shown;
   };
   const end = (event) => {
-    if (touch?.state === "waits") event.preventDefault(); // no tap, which a browser would take for a mouse's
-    touch = null;
+    const left = touch;
+    if (!left) return;
+    if (left.state !== "scrolls") event.preventDefault(); // no tap, which a browser would take for a mouse's
+    setTimeout(() => touch === left && (touch = null)); // Firefox tells of the finger once more
   };
   const listeners = Object.entries({
     pointerdown: start,
