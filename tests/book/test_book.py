@@ -113,7 +113,8 @@ def test_a_prediction_is_tapped_and_its_answer_folded(book, page):
     assert asked
     for question in asked:
         choices = question.find_next_sibling()
-        assert "choices" in choices.get("class", []) and len(choices.find_all("li")) == 3
+        assert choices and "choices" in choices.get("class", [])
+        assert len(choices.find_all("li")) == 3
         answer = choices.find_next_sibling()
         assert "fold" in answer["class"] and answer.summary.get_text() == "Answer"
         assert answer.p.find("strong", recursive=False) is answer.p.contents[0]
