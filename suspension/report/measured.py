@@ -286,7 +286,8 @@ def how_it_grows(ratio, felt):
     logs = np.log(np.asarray(ratio)[last])
     powers = [np.polyfit(logs, np.log(np.asarray(values)[last]), 1)[0] for values in felt]
     ends = sorted({fixed(min(powers), 2), fixed(max(powers), 2)})
-    said = f"over the last factor of ten it goes like the stiffness to the power {join(ends, 'to')}"
+    power_law = f"goes like the stiffness to the power {join(ends, 'to')}"
+    said = f"over the last factor of ten the acceleration {power_law}"
     for answer, power in POWERS.items():
         if np.abs(np.array(powers) - power).max() < NEAR:
             return f"**{answer}:** {said}."

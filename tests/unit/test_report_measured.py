@@ -227,7 +227,10 @@ def test_which_critical_speeds_stay_is_answered(line, other, words):
     ("powers", "words"),
     [
         ([], "**No stop is met at these speeds.**"),
-        ([0.5, 0.48], "**Like its root:** over the last factor of ten it goes like the stiffness"),
+        (
+            [0.5, 0.48],
+            "**Like its root:** over the last factor of ten the acceleration goes like the stiffness",
+        ),
         ([0.5, 0.48], "to the power 0.48 to 0.50."),
         ([1.0], "**In proportion to it:**"),
         ([0.02], "**Up to a ceiling:**"),
