@@ -114,8 +114,7 @@ def verdict(regimes, beyond=()):
     where = beyond_words(regimes, beyond)
     if where:
         words.append(
-            f"All this holds **if the spring stays linear**: {where} it is compressed further "
-            "than it was measured."
+            f"All this holds **if the spring stays linear** further than it was measured: {where}."
         )
     return " ".join(words)
 
@@ -410,7 +409,10 @@ def confidence_table(asked):
                 "margin (N)": ("lost" if is_lost(speed.margin) else fixed(speed.margin, 2)) + mark,
                 r"spring, of $\delta_{\max}$": fixed(speed.stretch, 2),
                 "verdict flips at k (N/m)": join([number(k, 4) for k in speed.flips]),
-                **{f"lost, by the {name}": confidence(p) + mark for name, p in speed.lost.items()},
+                **{
+                    f"confidence that contact is lost, with $k$ = the {name}": confidence(p) + mark
+                    for name, p in speed.lost.items()
+                },
             }
         )
     return table(rows)
@@ -420,14 +422,14 @@ def confidence_note(asked, stiffness):
     """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
         "The margins, and where the verdict flips, are those of the asked stiffness, "
-        f"{quantity(stiffness, 'N/m', 4)}; the confidence that contact is lost is given for each "
-        "reading of the data."
+        f"{quantity(stiffness, 'N/m', 4)}; the confidence is given for each way to read the "
+        "stiffness from the data."
     )
     beyond = [speed.v for speed in asked if speed.stretch > 1]
     if beyond:
         words += (
-            f" An asterisk, at {speed_list(beyond)}: **if the spring stays linear** beyond "
-            r"$\delta_{\max}$; no confidence level includes that doubt."
+            f" The asterisk, at {speed_list(beyond)}, marks what holds only **if the spring stays "
+            r"linear** beyond $\delta_{\max}$; no confidence level includes that doubt."
         )
     return words
 

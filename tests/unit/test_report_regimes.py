@@ -204,7 +204,9 @@ def test_ranges_told_as_one_have_the_larger_excess_of_the_two():
     swapped = FAR[0]._replace(times=FAR[1].times), FAR[1]._replace(times=FAR[0].times), FAR[2]
     for beyond in (FAR, swapped):
         assert plain(part.beyond_words(KEPT, beyond)) == f"from {words}"
-        assert f"{words} it is compressed" in plain(part.verdict(KEPT, beyond))
+        assert plain(part.verdict(KEPT, beyond)).endswith(
+            f"further than it was measured: from {words}."
+        )
 
 
 def test_where_the_spring_was_not_measured_is_doubted():
@@ -316,7 +318,8 @@ def test_what_rests_on_a_spring_beyond_its_range_is_marked():
     assert "none" in plain(slow) and "572.8" in plain(fast)
     assert "| 5.59 |" in plain(slow) and "| lost* |" in plain(fast)  # after a loss only a sign
     note = part.confidence_note(speeds, 792.9)
-    assert "at 0.5 m/s: **if the spring stays linear**" in plain(note)
+    assert "The asterisk, at 0.5 m/s, marks what holds only **if the spring" in plain(note)
+    assert "| confidence that contact is lost, with $k$ = the" in part.confidence_table(speeds)
     assert "asterisk" not in plain(part.confidence_note(asked(0.6), 792.9))
     assert not faults(slow + fast) and not faults(note)
 
