@@ -23,13 +23,16 @@ export function tameSliders(box) {
     const { left, width } = target.getBoundingClientRect(),
       travel = width - HANDLE,
       shown = target.value,
-      held = Math.abs(clientX - left - HANDLE / 2 - shown * travel) < HANDLE;
+      ends = [Number(target.min), Number(target.max)],
+      place = (shown - ends[0]) / (ends[1] - ends[0]),
+      held = Math.abs(clientX - left - HANDLE / 2 - place * travel) < HANDLE;
     touch = {
       slider: target,
       x: clientX,
       y: clientY,
       travel,
-      place: Number(shown),
+      place,
+      ends,
       held,
       shown,
       state: "waits",
@@ -40,7 +43,9 @@ export function tameSliders(box) {
     const dx = clientX - touch.x;
     if (touch.state === "waits" && !isPull(dx, clientY - touch.y, touch.held)) return;
     touch.state = "pulls";
-    touch.slider.value = Math.min(Math.max(touch.place + dx / touch.travel, 0), 1);
+    const [low, high] = touch.ends,
+      place = Math.min(Math.max(touch.place + dx / touch.travel, 0), 1);
+    touch.slider.value = low + place * (high - low);
     touch.slider.dispatchEvent(new Event("input", { bubbles: true }));
     touch.shown = touch.slider.value;
   };

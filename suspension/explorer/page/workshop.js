@@ -5,6 +5,7 @@ import { button, make, write } from "./dom.js";
 import { begin, clamp, enlargement, plain, ratioOf, show } from "./pen.js";
 import { CONDITIONS, readEntry, rowSums, writeEntry } from "./tableau.js";
 import { coloursOf, onTheme } from "./theme.js";
+import { tameSliders } from "./touch.js";
 import { drawAxis, drawForces, drawRegion, drawWork, IN, slackAt } from "./workshop_draw.js";
 import { makeBench } from "./workshop_run.js";
 import {
@@ -506,7 +507,9 @@ export function renderWorkshop(model, el) {
   const watched = ["tableau", "kept", "v", "dt"].map((name) => `change:${name}`);
   for (const name of watched) model.on(name, update);
   update();
+  const release = tameSliders(root);
   return () => {
+    release();
     for (const name of watched) model.off(name, update);
     sizes.disconnect();
     leaveTheme();
