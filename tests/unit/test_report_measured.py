@@ -229,7 +229,7 @@ def test_which_critical_speeds_stay_is_answered(line, other, words):
         ([], "**No stop is met at these speeds.**"),
         (
             [0.5, 0.48],
-            "**Like its root:** over the last factor of ten the acceleration goes like the stiffness",
+            "**Like its root:** over the last factor of ten the acceleration goes",
         ),
         ([0.5, 0.48], "to the power 0.48 to 0.50."),
         ([1.0], "**In proportion to it:**"),
