@@ -17,8 +17,8 @@ import {
 const TOLERANCE = 1e-12; // of |R| <= 1 and of whole numbers of steps, as in Python
 const SPEEDS = 128;
 const MOST = 5; // changes within one step
-const REFINED = 12, // looks at a step for the moment of a change, and how close of the step is enough
-  CLOSE = 1e-9;
+const REFINED = 30, // looks into a step for the moment of a change
+  CLOSE = 1e-5; // of the step, from the last secant to the next: that one is right to the last digits
 
 /** A table that Python packed as little-endian doubles. */
 const unpack = (view) =>
@@ -629,22 +629,18 @@ function turn({ press, count }, before, after, i, feelAt) {
   return bracketed(at, x, holds(before), holds(after));
 }
 
-/** A zero of f between 0 and 1, where it has the values fa and fb, from a guess on (Illinois). */
+/** A zero of f between 0 and 1, where it has the values fa and fb, from a guess on: secants, in brackets. */
 function bracketed(f, guess, fa, fb) {
-  let [a, b, x] = [0, 1, guess];
   if (fa > 0 === fb > 0) return guess; // it begins at a zero
-  for (let n = 0, kept = 0; n < REFINED; n++) {
-    const fx = f(x);
-    if (fx > 0 === fa > 0) {
-      [a, fa] = [x, fx];
-      if (kept === 1) fb /= 2;
-      kept = 1;
-    } else {
-      [b, fb] = [x, fx];
-      if (kept === 2) fa /= 2;
-      kept = 2;
-    }
-    const next = a + ((b - a) * fa) / (fa - fb);
+  let [a, b, x] = [0, 1, guess],
+    [before, fBefore] = guess < 0.5 ? [b, fb] : [a, fa];
+  for (let n = 0; n < REFINED; n++) {
+    const fx = f(x),
+      secant = x - (fx * (x - before)) / (fx - fBefore);
+    if (fx > 0 === fa > 0) a = x;
+    else b = x;
+    [before, fBefore] = [x, fx];
+    const next = secant >= a && secant <= b ? secant : (a + b) / 2;
     if (Math.abs(next - x) < CLOSE) return next;
     x = next;
   }
