@@ -310,7 +310,7 @@ class Game(Instrument):
 
     def _draw(self):
         """The forces at the asked speeds, of the robot as it is."""
-        steps = 2000
+        steps = 500  # of each run
         runs = [
             simulate(
                 self.given,

@@ -2,13 +2,15 @@
 // verdict, the next try. The state is the road, what is chosen, the attempts and the uncovered maps.
 
 import { button, make, write } from "./dom.js";
-import { drawLanes, drawMap, lanesLabel, makeRegion, mapFrame } from "./game_draw.js";
+import { drawLanes, drawMap, lanesLabel, makeRegion, makeRegionPicture, mapFrame } from "./game_draw.js";
 import { change, makeTrack } from "./game_run.js";
 import {
   attemptRow,
   isBest,
+  KEY,
   laneRow,
   mapWords,
+  RULES,
   roadName,
   roadWords,
   taskWords,
@@ -42,7 +44,8 @@ export function renderGame(model, el, address) {
     id = `se-game-${count++}`,
     calm = matchMedia("(prefers-reduced-motion: reduce)");
   const known = new Map(), // verdicts on attempts
-    regions = new Map();
+    regions = new Map(),
+    picture = makeRegionPicture();
   let shown = null, // the drive in the lanes
     isDone = false, // and whether it is over
     playing = null, // { start, attempt }
@@ -100,6 +103,7 @@ export function renderGame(model, el, address) {
     stage = make(body, "div", "se-stage se-stage-lanes"),
     lanesCanvas = make(stage, "canvas", "", { role: "img" }),
     said = make(root, "p", "se-said", { role: "status" }),
+    key = make(root, "p", "se-key"),
     ear = make(root, "div", "se-tools se-ear", { role: "group", "aria-label": "Sound" }),
     speaker = button(ear, "Sound", { "aria-pressed": "false" }),
     heardLabel = make(ear, "label", "", {}, "Hear "),
@@ -123,8 +127,11 @@ export function renderGame(model, el, address) {
     share = address ? button(planTools, "Copy a link to this attempt") : null,
     planWords = make(plan, "p", "se-words"),
     tables = make(lower, "div", "se-texts"),
+    rules = make(tables, "p", "se-words"),
     speedTable = table("At each speed", ["speed", "contact", "least force", "where", "in the air"]),
     trailTable = table("Your attempts", ["try", "k (N/m)", "c (N s/m)", "d", "what came of it"]);
+  write(key, KEY);
+  write(rules, RULES);
   make(log, "summary", "", {}, "What was heard");
   const logList = make(log, "ol");
   make(heardChoice, "option", "", { value: "" }, "the hardest speed");
@@ -229,6 +236,7 @@ export function renderGame(model, el, address) {
     const { attempt } = playing;
     playing = null;
     isDone = true;
+    tellCaption(1);
     record(attempt);
     address?.(chosen());
   }
@@ -402,7 +410,7 @@ export function renderGame(model, el, address) {
       });
     const region = isUncovered() ? regionOf(level()) : null;
     if (!playing) paintMap(region);
-    const isGrowing = region && !playing && region.work(PORTION);
+    const isGrowing = region?.work(playing ? PORTION / 3 : PORTION);
     if (playing) tellCaption(part);
     if (playing || isGrowing) schedule();
     root.dispatchEvent(
@@ -418,6 +426,7 @@ export function renderGame(model, el, address) {
       attempts: here().map(judged),
       chosen: chosen(),
       region,
+      picture,
     });
   }
   function partAt(now) {

@@ -5,11 +5,12 @@ import { laneWords } from "./game_words.js";
 import { zeroLine } from "./map.js";
 import { airborne, lookUp } from "./model.js";
 import { drawRobot } from "./panels.js";
-import { show } from "./pen.js";
+import { begin, show } from "./pen.js";
 import { unit } from "./words.js";
 
-export const COLUMNS = 36, // of the map
-  ROWS = 30;
+const COLUMNS = 32, // of the map
+  ROWS = 26,
+  PARTS = 4; // of a cell, across and up, that are shaded each for itself
 const LEFT = 46; // pixels to the map's frame
 
 /**
@@ -95,34 +96,45 @@ export function makeRegion(level, { ranges, asked }, sketch) {
     ks: grid(ranges.k, COLUMNS),
     cs: grid(ranges.c, ROWS),
     margins: asked.map(() => []), // of each speed, a row for each damping
-    isDone: () => region.margins[0].length === ROWS && region.margins[0].at(-1).length === COLUMNS,
+    /** Rows that are filled. */
+    rows: () => region.margins[0].filter((row) => row.length === COLUMNS).length,
     work(portion) {
       const start = performance.now();
-      while (!region.isDone() && performance.now() - start < portion) {
+      while (region.rows() < ROWS && performance.now() - start < portion) {
         const rows = region.margins[0];
         if (!rows.length || rows.at(-1).length === COLUMNS) for (const own of region.margins) own.push([]);
         const row = rows.length - 1,
           found = sketch(level, region.ks[rows[row].length], region.cs[row]);
         found.forEach((margin, i) => region.margins[i][row].push(margin));
       }
-      return !region.isDone();
+      return region.rows() < ROWS;
     },
   };
   return region;
+}
+
+/** How many speeds fail at a place between the nodes of the map: [column, row]. */
+function failing({ margins }, [x, y], reserve) {
+  const [j, i] = [Math.min(Math.floor(x), COLUMNS - 2), Math.min(Math.floor(y), ROWS - 2)],
+    [right, up] = [x - j, y - i];
+  const at = (M) =>
+    (1 - up) * ((1 - right) * M[i][j] + right * M[i][j + 1]) +
+    up * ((1 - right) * M[i + 1][j] + right * M[i + 1][j + 1]);
+  return margins.filter((M) => at(M) < reserve).length;
 }
 
 /** The region where all is kept, a border for each speed, and how far away the answer to beat is. */
 function drawRegion(pen, frame, region, goal, { asked, own }) {
   const { shade, stroke, line, text } = pen,
     { left, right, top, bottom, px, py } = frame,
-    rows = region.margins[0].length - (region.isDone() ? 0 : 1);
-  const [cw, ch] = [(right - left) / (COLUMNS - 1), (bottom - top) / (ROWS - 1)],
-    x = (j) => Math.round(left + (j - 0.5) * cw),
-    y = (i) => Math.round(bottom - (i - 0.5) * ch);
-  for (let i = 0; i < rows; i++) {
-    for (let j = 0; j < COLUMNS; j++) {
-      const failed = region.margins.filter((margins) => margins[i][j] < goal.reserve).length;
-      const [colour, alpha] = failed ? ["alarm", 0.08 + (0.4 * failed) / asked.length] : ["region", 0.4];
+    rows = region.rows();
+  const [nx, ny] = [PARTS * (COLUMNS - 1), PARTS * (ROWS - 1)],
+    x = (j) => Math.round(left + ((right - left) * j) / nx),
+    y = (i) => Math.round(bottom - ((bottom - top) * i) / ny);
+  for (let i = 0; i < PARTS * (rows - 1); i++) {
+    for (let j = 0; j < nx; j++) {
+      const failed = failing(region, [(j + 0.5) / PARTS, (i + 0.5) / PARTS], goal.reserve),
+        [colour, alpha] = failed ? ["alarm", 0.08 + (0.4 * failed) / asked.length] : ["region", 0.4];
       shade(colour, alpha, x(j), y(i + 1), x(j + 1) - x(j), y(i) - y(i + 1));
     }
   }
@@ -162,14 +174,34 @@ function diamond({ stroke, fill }, x, y) {
   stroke("ink", 2, [], path);
 }
 
+/** What draws a region once, and from then on copies it. */
+export function makeRegionPicture() {
+  const canvas = document.createElement("canvas");
+  let drawn = "";
+  return (pen, frame, region, goal, facts) => {
+    const { w, h, colours } = pen,
+      key = [
+        w,
+        h,
+        devicePixelRatio,
+        JSON.stringify(colours),
+        facts.levels.indexOf(goal),
+        region.rows(),
+      ].join();
+    if (key !== drawn) drawRegion(begin(canvas, w, h, colours), frame, region, goal, facts);
+    drawn = key;
+    pen.g.drawImage(canvas, 0, 0, w, h);
+  };
+}
+
 /** The trail on the map: attempts one after another, filled where they do what is asked for. */
-export function drawMap(pen, facts, { goal, attempts, chosen, region }) {
+export function drawMap(pen, facts, { goal, attempts, chosen, region, picture }) {
   const { w, h, stroke, line, text, inside, dot } = pen,
     frame = mapFrame(w, h, facts),
     { left, right, top, bottom, px, py } = frame;
   drawAxes(pen, frame, ["stiffness k (N/m)", "damping c (N s/m)"]);
   inside(left, top, right - left, bottom - top, () => {
-    if (region) drawRegion(pen, frame, region, goal, facts);
+    if (region) picture(pen, frame, region, goal, facts);
     const places = attempts.map(({ k, c }) => [px(k), py(c)]);
     stroke("soft", 1.5);
     if (places.length > 1) line(...places.flat());

@@ -15,6 +15,12 @@ const list = (words) =>
   words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
 const speeds = (some) => `${list(some.map((v) => show(v)))}\u00a0m/s`;
 
+/** What the lanes and the score are, once for all. */
+export const KEY =
+  "Each robot has a clock of its own, so that all are at the same place. Thick lines under the road: where a wheel was in the air, rear wheel below, front wheel above.";
+export const RULES =
+  "The score is how far the suspension is from the present one, d = √(ln²(k/k₀) + ln²(c/c₀)): half and twice are equally far, and stiffness and damping count alike. On the map, click or tap a place to choose it, or use the arrow keys.";
+
 /** "Road A", of a level. */
 export const roadName = (level) => (level ? `Road ${String.fromCharCode(64 + level)}` : "The bump");
 
@@ -49,25 +55,14 @@ export function laneWords({ state, wheel, margin, lost, air, end }) {
   return `lost: ${WHEEL[lost.wheel]}, ${air > 0 ? `${unit(1000 * air * end, "ms")} in the air` : "for an instant"}`;
 }
 
+const place = ({ wheel, X }) => `${WHEEL[wheel]}, X\u00a0=\u00a0${unit(X, "m")}`;
+
 /** A row of the table of speeds: speed, contact, least force, where. */
 export function laneRow(lane) {
-  const { v, state, margin, wheel, X, lost, air } = lane,
+  const { v, state, margin, lost, air } = lane,
     name = unit(v, "m/s");
-  if (state === "lost")
-    return [
-      name,
-      "lost",
-      "–",
-      `${WHEEL[lost.wheel]} wheel at X = ${unit(lost.X, "m")}`,
-      air > 0 ? percent(air) : "–",
-    ];
-  return [
-    name,
-    state === "kept" ? "kept" : "too little left",
-    force(margin),
-    `${WHEEL[wheel]} wheel at X = ${unit(X, "m")}`,
-    "0",
-  ];
+  if (state === "lost") return [name, "lost", "–", place(lost), air > 0 ? percent(air) : "–"];
+  return [name, state === "kept" ? "kept" : "too little left", force(margin), place(lane), "0"];
 }
 
 /** What is wrong, or nothing. */
