@@ -34,9 +34,12 @@ SHIPPED = FOLDERS  # of what is not read anew for each copy
 FILES = ("spring_data.mat", "spring_data.csv")
 
 # The synthetic stand-in, data/make_spring_data.py: its digest, so that another file under the same
-# name is not taken for it, and the truth behind it.
+# name is not taken for it, and how it was made.
 SYNTHETIC = "4443053ab6a814e209f91ab03635f51ed49172dc75c624a1e632790b21e09b11"
 TRUE_STIFFNESS = 800.0  # N/m
+NOISE = 0.12  # N, standard deviation
+RESOLUTION = 0.02  # N
+SEED = 2086
 
 ROUNDOFF = 1e-9  # how far a displacement may lie outside [0, 1]
 UNITS = {
@@ -110,7 +113,10 @@ def _default_file():
 
 def shipped(name):
     """The path of a file that comes with the book and does not change: ``data/name``."""
-    return next(folder / name for folder in SHIPPED if (folder / name).is_file())
+    for folder in SHIPPED:
+        if (folder / name).is_file():
+            return folder / name
+    raise ValueError(f"name must be a file in {' or '.join(map(str, SHIPPED))}, got {name!r}")
 
 
 def are_synthetic(displacement, force):

@@ -137,7 +137,9 @@ def handed_out(notebook, kind, is_workbook):
 
 
 def make_wheel(folder, root=ROOT):
-    """The package as a wheel, put into a folder."""
+    """The package as a wheel, put into a folder in place of any that is there."""
+    for old in Path(folder).glob("suspension-*.whl"):
+        old.unlink()
     command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
     run = subprocess.run(command, cwd=root, capture_output=True, encoding="utf-8", errors="replace")
     if run.returncode:

@@ -1,6 +1,7 @@
 """Bug hunts: integrators with one wrong line each, to be found by the order that they show."""
 
 import inspect
+import math
 import textwrap
 
 import numpy as np
@@ -200,14 +201,14 @@ def _judge(name, order, line, repaired):
         if each is Ellipsis or each is None:
             raise fill(what)
     ratio = 2**shown
-    if isinstance(order, bool) or not isinstance(order, int | float | np.number):
+    real = isinstance(order, int | float | np.integer | np.floating)
+    if isinstance(order, bool) or not real or not abs(order) < math.inf:
         raise Wrong("The order is a number, such as 2.")
     if round(order) != shown:
         own = " That is the order it should have; measure it." if round(order) == full else ""
         raise Wrong(
             f"Halve the step: the error becomes {ratio} times smaller, and 2^p = {ratio} is "
-            "not p = "
-            f"{order:g}.{own}"
+            f"not p = {_short(order)}.{own}"
         )
     if (
         isinstance(line, bool)
@@ -235,9 +236,13 @@ def _judge(name, order, line, repaired):
         )
     raise Wrong(
         f"{begin}Line {line} is the wrong one, but with yours it is of order "
-        f"{max(round(found), 0)}, and "
-        f"{full} is possible."
+        f"{max(round(found), 0)}, and {full} is possible."
     )
+
+
+def _short(order):
+    """A number that may have very many digits."""
+    return f"{order:g}" if abs(order) < 1e15 else "such a large number"
 
 
 def _slope_of(name, source, begin, line):
@@ -247,10 +252,11 @@ def _slope_of(name, source, begin, line):
         exec(compile(source, "repaired", "exec"), space)
     except SyntaxError as error:
         raise Wrong(f"{begin}Your line {line} is not Python: {error.msg}.") from None
-    signature = (
-        "trapezoid(A, F, w0, dt, tfinal)" if name == "trapezoid" else (f"{name}(g, w0, dt, tfinal)")
-    )
-    run = Yours(space[name], signature)
+    except Exception as error:
+        raise Wrong(f"{begin}With your line {line} the definition fails: {error}.") from None
+    if name not in space:
+        raise Wrong(f"{begin}With your line {line} there is no `{name}` any more.")
+    run = Yours(space[name], name + str(inspect.signature(_hunt(name)[0])))
     try:
         errors = _errors(run, name, 1 / STEPS)
     except (ValueError, TypeError, IndexError) as error:

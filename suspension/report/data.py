@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension._readings import TRUE_STIFFNESS
+from suspension._readings import NOISE, RESOLUTION, SEED, TRUE_STIFFNESS
 from suspension.report.words import (
     SPACE,
     count,
@@ -128,9 +128,9 @@ def made_sentence(data):
         "How the stand-in was made, once, without tuning: "
         f"{count(len(data), 'displacement')} from 0 to 1; a linear spring of "
         f"{quantity(TRUE_STIFFNESS, 'N/m')} without preload; Gaussian noise with a standard "
-        f"deviation of 0.12{SPACE}N; readings rounded to 0.02{SPACE}N, which is a scale that "
-        "reads to one gram, doubled. The generator is `data/make_spring_data.py` and its seed is "
-        "2086. Knowing the truth is a luxury that real data never grant, and "
+        f"deviation of {NOISE:g}{SPACE}N; readings rounded to {RESOLUTION:g}{SPACE}N, which is a "
+        "scale that reads to one gram, doubled. The generator is `data/make_spring_data.py` and "
+        f"its seed is {SEED}. Knowing the truth is a luxury that real data never grant, and "
         "[Part I](../notebooks/01-regression.ipynb) makes use of it only in hindsight."
     )
 

@@ -6,6 +6,7 @@ without the waves that are too short for the classes.
 
 import numpy as np
 
+from suspension.measured import Share
 from suspension.report.rows import table
 from suspension.report.words import SPACE, fixed, percent, share, speed_list
 
@@ -63,11 +64,11 @@ def flights(names, speeds, linear, found, longer):
     names, speeds, linear, found, longer
         As for `rides_table`.
     """
-    lines = []
+    lines, linear = [], np.asarray(linear)
     for i, name in enumerate(names):
         flown, left = (each.flights.sum(axis=0)[:, i] > 0 for each in (found, longer))
         if not flown.any():
-            below = percent(1 - 0.05 ** (1 / len(flown)))
+            below = percent(Share(0, len(flown)).high)
             lines.append(
                 f"**“{name}” flew on none of {len(flown)} roads.** With 95{SPACE}% confidence it "
                 f"flies on less than {below} of such roads; that many roads can tell no more."

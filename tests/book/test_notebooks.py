@@ -33,8 +33,7 @@ def test_is_a_page_of_the_book(path):
     assert f"notebooks/{path.stem}" in (ROOT / "_toc.yml").read_text(encoding="utf-8")
 
 
-@each_notebook
-def test_nbval_runs_it_and_compares(path, request):
+def test_nbval_runs_them_and_compares(request):
     config = request.config
     assert config.option.nbval and not config.option.nbval_lax
     assert "notebooks" in config.getini("testpaths")

@@ -137,10 +137,13 @@ def test_what_stands_before_and_after_a_solution_stays():
 def test_links_of_a_copy_lead_to_its_own_notebooks(copies):
     link = re.compile(r"\]\(([^)#\s]+\.(?:ipynb|md))")
     for copy in copies.values():
+        seen = 0
         for path in copy.rglob("*.ipynb"):
             for cell in nbformat.read(path, as_version=4).cells:
                 for target in link.findall(cell.source) if cell.cell_type == "markdown" else ():
                     assert (path.parent / target).is_file(), (path, target)
+                    seen += 1
+        assert seen > 20
 
 
 def test_the_students_copy_runs_and_asks_to_fill_the_blanks(copies, python):

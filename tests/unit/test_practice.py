@@ -958,6 +958,11 @@ def test_a_hunt_ends_with_order_line_and_repair(name):
         "no Python": practice.check_hunt(name, order, line, "k3 = = 2"),
         "a name": practice.check_hunt(name, order, line, repaired.split("=")[0] + "= missing"),
         "a number": practice.check_hunt(name, order, line, 4),
+        "no order": practice.check_hunt(name, np.nan, line, repaired),
+        "no end": practice.check_hunt(name, 10**400, line, repaired),
+        "complex": practice.check_hunt(name, 2 + 0j, line, repaired),
+        "renamed": practice.check_hunt(name, order, 1, "def other(g, w0, dt, tfinal):"),
+        "default": practice.check_hunt(name, order, 1, f"def {name}(g, w0, dt, tfinal=missing):"),
     }
     fragments = {
         "fill": "Fill in the blank of `order`",
@@ -971,6 +976,11 @@ def test_a_hunt_ends_with_order_line_and_repair(name):
         "no Python": "is not Python",
         "a name": "NameError",
         "a number": "text of the line",
+        "no order": "The order is a number",
+        "no end": "is not p = such a large number",
+        "complex": "The order is a number",
+        "renamed": f"there is no `{name}` any more",
+        "default": "the definition fails: name 'missing'",
     }
     for case, text in said.items():
         assert not text and fragments[case] in text, (case, text)
@@ -992,3 +1002,28 @@ def test_the_page_shows_what_a_check_says():
     exec("\n".join(definition), space)
     assert eval(call, space) == words
     assert "Five integrators" in page and len(hunts._HUNTS) == 5
+
+
+# --- answers that are odd ------------------------------------------------------------------------
+
+
+def test_what_is_nearly_right_is_told_in_digits_that_differ():
+    text = practice.check_state_matrix(lambda robot: robot.A * (1 + 5e-7))
+    found, wanted = re.search(r"is (\S+), and should be (\S+) for", text).groups()
+    assert not text and found != wanted
+
+
+def test_numbers_that_are_none_are_told():
+    def spoiled(A, F, w0, dt, tfinal):
+        W = np.full((len(w0), round(tfinal / dt) + 1), np.nan)
+        W[:, 0] = w0
+        return W, dt * np.arange(W.shape[1])
+
+    text = practice.check_crank_nicolson(spoiled)
+    assert not text and "returns nan or inf" in text
+
+
+def test_an_answer_is_handed_over_by_place():
+    for check in CHECKS.values():
+        (parameter,) = inspect.signature(check).parameters.values()
+        assert parameter.kind is parameter.POSITIONAL_ONLY

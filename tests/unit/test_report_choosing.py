@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cases import STIFFNESSES, faults, fitted
 
-from suspension.choice import Candidate, Choice, Demands, Findings, fitted_with
+from suspension.choice import Candidate, Choice, Choices, Demands, fitted_with
 from suspension.contact import Regimes
 from suspension.explorer.family import Family
 from suspension.report import choosing as part
@@ -43,7 +43,7 @@ def plain(text):
 
 
 def conclude(**changed):
-    found = Findings(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, CANDIDATES)
+    found = Choices(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, CANDIDATES)
     return plain(part.conclusions(found._replace(**changed)))
 
 
@@ -65,7 +65,7 @@ def test_sentences_about_any_spring_are_sound(k):
         part.between(candidates),
         part.robust_table(least),
         part.drive_links(candidates, Family(robot, GaussianBump()).ranges, 1.2),
-        part.conclusions(Findings(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, candidates)),
+        part.conclusions(Choices(LEAST, RESERVED, WIDE, STIFFEST, LIMIT, candidates)),
     ]
     for text in texts:
         assert not faults(text)
