@@ -14,7 +14,8 @@ import numpy as np
 import traitlets
 
 from suspension import _checks
-from suspension.choice import EDGE, cheapest, demands, fitted_with
+from suspension.choice import cheapest, demands, fitted_with
+from suspension.contact import is_lost
 from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.family import Family
 from suspension.explorer.instrument import Instrument
@@ -37,6 +38,7 @@ TRIES = 40  # shapes that are drawn for them, at most
 HEIGHTS = (0.3, 1.5)  # times the bump's, up or down
 WIDTHS = (0.4, 2.0)
 FAR, APART = 0.25, 0.25  # how far a change must go, and how far apart two answers are
+SAME = 1e-9  # parts of the way in the air that are the same
 TENTHS = 10  # of the load at rest that may be asked for as a reserve
 
 
@@ -154,7 +156,7 @@ def unknown_roads(robot, bump, v, k, c, *, seed=2086, distance=None):
         up = rng.choice([-1, 1])
         road = _like(robot, bump, up * height * bump.height, width * bump.sigma)
         fits = road.centre + CLEAR * road.sigma + robot.L1 <= distance
-        if not fits or all(margin(robot, road, u, distance=distance) > 0 for u in v):
+        if not fits or not any(is_lost(margin(robot, road, u, distance=distance)) for u in v):
             continue
         choice = cheapest(robot, road, v, k, c, distance=distance)
         if choice is None or choice.distance < FAR:
@@ -202,8 +204,8 @@ class Game(Instrument):
         Which of them is played.
     k, c : float
         What is chosen, N/m and N s/m.
-    attempts : list of [level, k, c, seen]
-        What was driven; `seen`: whether the map was uncovered before.
+    attempts : list of [level, k, c, how]
+        What was driven; `how`: "map" if the map was uncovered before, "link" if it came as a link.
     uncovered : list of int
         Levels whose map was uncovered.
 
@@ -234,18 +236,18 @@ class Game(Instrument):
         others = unknown_roads(robot, bump, asked, k, c, seed=seed, distance=distance)
         self.given, self.asked, self.distance = robot, asked, distance
         self.levels = [(bump, first), *others]
+        self.ranges = {
+            name: [float(min(ends[0], own)), float(max(ends[-1], own))]
+            for name, ends, own in (("k", k, robot.k1), ("c", c, robot.c1))
+        }
         frame, table = shape_of(bump, 0, 0)
         packed = base64.b64encode(table.astype("<f8").tobytes())
         super().__init__(
             facts={
                 "own": {"k": robot.k1, "c": robot.c1},
-                "ranges": {
-                    name: [min(ends[0], own), max(ends[-1], own)]
-                    for name, ends, own in (("k", k, robot.k1), ("c", c, robot.c1))
-                },
+                "ranges": self.ranges,
                 "asked": asked,
                 "distance": distance,
-                "edge": EDGE,
                 "model": Family(robot, bump).model(),
                 "wheels": robot.arms.tolist(),
                 "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
@@ -255,6 +257,38 @@ class Game(Instrument):
             k=robot.k1,
             c=robot.c1,
         )
+
+    @traitlets.validate("level")
+    def _check_level(self, proposal):
+        return self._level(proposal["value"])
+
+    @traitlets.validate("k", "c")
+    def _check_choice(self, proposal):
+        return self._within(proposal["trait"].name, proposal["value"])
+
+    @traitlets.validate("attempts")
+    def _check_attempts(self, proposal):
+        try:
+            rows = [(level, k, c, how) for level, k, c, how in proposal["value"]]
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"attempts must be lists of level, k, c and how, got {proposal['value']!r}"
+            ) from None
+        return [
+            [self._level(level), self._within("k", k), self._within("c", c), str(how)]
+            for level, k, c, how in rows
+        ]
+
+    @traitlets.validate("uncovered")
+    def _check_uncovered(self, proposal):
+        return [self._level(level) for level in proposal["value"]]
+
+    def _level(self, value):
+        return _checks.one_of("level", value, range(len(self.levels)))
+
+    def _within(self, name, value):
+        low, high = self.ranges[name]
+        return _checks.number(name, value, f"{low:g} to {high:g}", lambda x: low <= x <= high)
 
     def _told(self, road, goal):
         """A level as the page is handed it."""
@@ -287,18 +321,21 @@ class Game(Instrument):
         -------
         Attempt
         """
-        road, goal = self.levels[_checks.one_of("level", level, range(len(self.levels)))]
+        road, goal = self.levels[self._level(level)]
         robot = fitted_with(self.given, k, c)
         margins = {v: margin(robot, road, v, distance=self.distance) for v in self.asked}
-        kept = min(margins.values()) >= goal.reserve - EDGE
-        part = 0.0 if kept else air(robot, road, self.asked, self.distance)
-        reached = part <= goal.air if goal.kind == "air" else kept
-        return Attempt(change(self.given, robot), margins, part, bool(reached))
+        lost = [v for v, least in margins.items() if is_lost(least)]
+        part = air(robot, road, lost, self.distance) if lost else 0.0
+        reached = not lost and min(margins.values()) >= goal.reserve
+        if goal.kind == "air":
+            reached = part <= goal.air + SAME
+        return Attempt(change(self.given, robot), margins, part, reached)
 
     @property
     def alt(self):
         """What the still picture shows."""
-        lost = [v for v, force in self.judge(self.k, self.c).margins.items() if force <= 0]
+        margins = self.judge(self.given.k1, self.given.c1).margins
+        lost = [v for v, least in margins.items() if is_lost(least)]
         return (
             f"Normal forces on the way over the bump at {speed_list(self.asked)}, with the "
             f"suspension as it is. Contact is lost at {speed_list(lost)}."

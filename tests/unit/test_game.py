@@ -350,3 +350,19 @@ def test_bad_input_is_refused_by_name(bad, named):
 def test_a_level_that_is_not_there_is_refused():
     with pytest.raises(ValueError, match=r"^level "):
         game().judge(800, 1.5, 7)
+
+
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("level", 7),
+        ("k", 99.0),
+        ("c", np.nan),
+        ("attempts", [[0, 800]]),
+        ("attempts", [[0, 1e9, 1.5, ""]]),
+        ("uncovered", [9]),
+    ],
+)
+def test_what_cannot_be_played_is_refused(name, value):
+    with pytest.raises(ValueError, match="level|k must|c must|attempts must"):
+        setattr(game(), name, value)

@@ -89,7 +89,7 @@ export const change = ({ own }, k, c) => Math.hypot(Math.log(k / own.k), Math.lo
 
 /** What is asked for, and what drives over it. */
 export function makeTrack(facts) {
-  const { asked, distance, levels, wheels, edge } = facts,
+  const { asked, distance, levels, wheels } = facts,
     bytes = Uint8Array.from(atob(facts.shape.table), (letter) => letter.charCodeAt(0)),
     shape = { ...facts.shape, table: new Float64Array(bytes.buffer) },
     roads = levels.map(({ bump, centre }) => makeRoad({ ...shape, centre }, bump)),
@@ -125,7 +125,7 @@ export function makeTrack(facts) {
     const { reserve } = levels[level],
       straight = run(level, robot, v, FINE, linear),
       found = least(straight),
-      isLost = found.margin < -edge,
+      isLost = found.margin <= 0,
       method = { scheme: facts.reference, dt: straight.dt };
     const flight = isLost
       ? fly(facts, robot, roads[level], { v }, flying, method)
@@ -134,7 +134,7 @@ export function makeTrack(facts) {
       ...found,
       v,
       end: distance / v,
-      state: isLost ? "lost" : found.margin >= reserve - edge ? "kept" : "short",
+      state: isLost ? "lost" : found.margin >= reserve ? "kept" : "short",
       lost: isLost ? loss(straight) : null,
       air: (Math.max(...flight.airtime) * v) / distance,
       flight,
