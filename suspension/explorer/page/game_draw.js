@@ -4,8 +4,8 @@ import { drawAxes, logFrame } from "./axes.js";
 import { laneWords } from "./game_words.js";
 import { zeroLine } from "./map.js";
 import { airborne, lookUp } from "./model.js";
-import { drawRobot } from "./panels.js";
 import { begin, show } from "./pen.js";
+import { drawRobot } from "./robot.js";
 import { unit } from "./words.js";
 
 const COLUMNS = 32, // of the map
