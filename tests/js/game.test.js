@@ -13,6 +13,7 @@ import {
   outcome,
   roadName,
   roadWords,
+  scoreWords,
   taskWords,
   verdict,
 } from "../page/game_words.js";
@@ -99,6 +100,13 @@ test("where nothing keeps contact the part in the air is judged", () => {
   assert.match(told(0.04, true), /That is less than the best of the map had\.$/);
   assert.equal(plain(outcome(drive(lanes, 0.7, false, 0.06), goal)), "6 % in the air");
   assert.equal(isBest(drive(lanes, 0.7, true, 0.05), goal), true);
+});
+
+test("a road's button shows the best of what was done there", () => {
+  const attempts = [drive(all, 1.3, true), drive(all, 1.1, true), drive([lost(5)], 0.2, false)];
+  assert.equal(plain(scoreWords(attempts, GOAL)), " ✓ 1.1");
+  assert.equal(scoreWords(attempts.slice(2), GOAL), "");
+  assert.equal(plain(scoreWords([drive([lost(5)], 2, true, 0.03)], { kind: "air" })), " ✓ 3 %");
 });
 
 test("an attempt is told in a row, with how it came about", () => {

@@ -20,6 +20,7 @@ from suspension.problem import DISTANCE, SPEEDS
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
 K, C = np.geomspace(100, 3200, 13), np.geomspace(0.3, 15, 13)
 LOAD = ROBOT.m * ROBOT.g / 2
+RNG = np.random.default_rng
 
 # Reads given.json: the facts, and of many attempts [level, k, c] what the page finds.
 ASK = """
@@ -46,6 +47,12 @@ def game():
     return Game(ROBOT, BUMP, SPEEDS, K, C)
 
 
+@cache
+def small():
+    """Two speeds, and a coarse grid."""
+    return Game(ROBOT, BUMP, [1.2, 5], K[::4], C[::4])
+
+
 def ask(folder, facts, attempts, heard=False):
     """What the page finds of attempts: level, stiffness, damping."""
     given = {"facts": facts, "attempts": attempts, "heard": heard}
@@ -63,13 +70,12 @@ def anywhere(rng, count):
 def drives(tmp_path_factory):
     """Sixty suspensions over each road: what was asked, and the page's answers."""
     attempts = [
-        [level, *place]
-        for level in range(len(game().levels))
-        for place in anywhere(np.random.default_rng(level), 60)
+        [level, *place] for level in range(len(game().levels)) for place in anywhere(RNG(level), 60)
     ]
     return list(zip(attempts, ask(tmp_path_factory.mktemp("drives"), game().facts, attempts)))
 
 
+@pytest.mark.slow
 def test_margins_are_those_of_the_package(drives):
     assert len(drives) == 240
     states = []
@@ -83,6 +89,7 @@ def test_margins_are_those_of_the_package(drives):
     assert min(map(states.count, ("kept", "lost"))) > 200
 
 
+@pytest.mark.slow
 def test_first_losses_are_those_of_the_package(drives):
     for (level, k, c), page in drives:
         road, robot = game().levels[level][0], fitted_with(ROBOT, k, c)
@@ -95,6 +102,17 @@ def test_first_losses_are_those_of_the_package(drives):
                 assert lane["lost"]["X"] == pytest.approx(exact.t * lane["v"], abs=PARITY)
 
 
+def test_margins_and_verdicts_of_a_small_game_are_those_of_the_package(tmp_path):
+    attempts = [[level, *place] for level in (0, 1) for place in anywhere(RNG(9), 5)]
+    for page, (level, k, c) in zip(ask(tmp_path, small().facts, attempts), attempts):
+        found = small().judge(k, c, level)
+        near([lane["margin"] for lane in page["lanes"]], list(found.margins.values()), PARITY)
+        assert page["distance"] == pytest.approx(found.distance, rel=PARITY)
+        assert page["air"] == pytest.approx(found.air, abs=PARITY)
+        assert page["isReached"] == found.reached
+
+
+@pytest.mark.slow
 def test_distance_and_verdict_are_those_of_the_package(drives):
     for (level, k, c), page in drives:
         distance = np.hypot(np.log(k / 800), np.log(c / 1.5))  # the definition of Part X
@@ -108,6 +126,7 @@ def test_distance_and_verdict_are_those_of_the_package(drives):
         assert page["air"] == pytest.approx(found.air, abs=PARITY)
 
 
+@pytest.mark.slow
 def test_the_part_in_the_air_is_that_of_fly(drives):
     flown = 0
     for (level, k, c), page in drives[::6]:
@@ -123,6 +142,7 @@ def test_the_part_in_the_air_is_that_of_fly(drives):
     assert flown > 40
 
 
+@pytest.mark.slow
 def test_the_map_is_right_to_a_thousandth_of_the_load(drives):
     for (level, k, c), page in drives:
         exact = [lane["margin"] for lane in page["lanes"]]
@@ -130,6 +150,7 @@ def test_the_map_is_right_to_a_thousandth_of_the_load(drives):
         assert (np.abs(np.subtract(page["sketch"], exact)) < 2e-3 * scale).all(), (level, k, c)
 
 
+@pytest.mark.slow
 def test_the_answers_to_beat_are_those_of_part_ten(tmp_path):
     attempts = []
     for level, (road, goal) in enumerate(game().levels):
@@ -145,6 +166,7 @@ def test_the_answers_to_beat_are_those_of_part_ten(tmp_path):
     assert not any(page["isReached"] for page in ask(tmp_path, game().facts, nearer))
 
 
+@pytest.mark.slow
 def test_unknown_roads_are_the_same_each_time_and_worth_playing():
     roads = [road for road, _ in game().levels[1:]]
     again = unknown_roads(ROBOT, BUMP, SPEEDS, K, C, distance=DISTANCE)
@@ -195,6 +217,7 @@ def test_where_no_suspension_keeps_contact_the_air_is_what_counts(tmp_path):
     assert own.judge(800, 1.5).air == pytest.approx(present["air"], abs=PARITY)
 
 
+@pytest.mark.slow
 def test_a_robot_that_nothing_betters_is_told_so():
     best = goal_on(ROBOT, BUMP, SPEEDS, K, C).best
     flat = replace(BUMP, height=1e-6)
@@ -228,6 +251,7 @@ def forces_at(flight, t):
     return np.array([np.interp(t, flight.T, N) for N in flight.N])
 
 
+@pytest.mark.slow
 def test_tones_follow_the_forces_and_are_silent_in_flight(heard):
     silent = 0
     for robot, road, lane, score, _ in heard:
@@ -266,6 +290,7 @@ def test_pitch_and_loudness_of_a_force_are_exact(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_each_event_has_its_sounds_at_its_time_on_its_side(heard):
     knocks = 0
     for robot, road, lane, score, events in heard:
@@ -291,6 +316,7 @@ def test_each_event_has_its_sounds_at_its_time_on_its_side(heard):
     assert knocks > 60
 
 
+@pytest.mark.slow
 def test_all_that_is_heard_is_said(heard):
     for _, _, lane, score, events in heard:
         first, *told, last = score["captions"]
@@ -307,6 +333,7 @@ def test_all_that_is_heard_is_said(heard):
 # --- the instrument -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_page_gets_a_still_picture_and_all_that_its_script_needs():
     html = game().html()
     assert 'class="suspension-laboratory se-game"' in html
@@ -319,7 +346,7 @@ def test_a_page_gets_a_still_picture_and_all_that_its_script_needs():
 
 
 def test_what_is_chosen_is_there_in_python():
-    own = Game(ROBOT, BUMP, [1.2, 5], K[::3], C[::3])
+    own = small()
     own.k, own.c = 280.0, 1.6
     assert own.chosen == Robot(280, 280, c1=1.6, c2=1.6)
     found = own.judge(own.k, own.c)
@@ -349,7 +376,7 @@ def test_bad_input_is_refused_by_name(bad, named):
 
 def test_a_level_that_is_not_there_is_refused():
     with pytest.raises(ValueError, match=r"^level "):
-        game().judge(800, 1.5, 7)
+        small().judge(800, 1.5, 7)
 
 
 @pytest.mark.parametrize(
@@ -365,4 +392,4 @@ def test_a_level_that_is_not_there_is_refused():
 )
 def test_what_cannot_be_played_is_refused(name, value):
     with pytest.raises(ValueError, match="level|k must|c must|attempts must"):
-        setattr(game(), name, value)
+        setattr(small(), name, value)

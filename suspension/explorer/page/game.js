@@ -11,6 +11,7 @@ import {
   laneRow,
   mapWords,
   RULES,
+  scoreWords,
   roadName,
   roadWords,
   taskWords,
@@ -238,12 +239,14 @@ export function renderGame(model, el, address) {
     isDone = true;
     tellCaption(1);
     record(attempt);
-    address?.(chosen());
+    const [on, k, c] = attempt;
+    address?.({ level: on, k, c });
   }
   function record(attempt) {
-    const [on, k, c] = attempt,
+    const [on, k, c, how] = attempt,
       isNew = !attempts().some((one) => one[0] === on && one[1] === k && one[2] === c),
-      isSolved = isBest(judged(attempt), levels[on]) && !(read("uncovered") ?? []).includes(on);
+      isSolved =
+        how !== "link" && isBest(judged(attempt), levels[on]) && !(read("uncovered") ?? []).includes(on);
     set({
       ...(isNew ? { attempts: [...attempts(), attempt].slice(-MOST) } : {}),
       ...(isSolved ? { uncovered: [...(read("uncovered") ?? []), on] } : {}),
@@ -304,11 +307,11 @@ export function renderGame(model, el, address) {
     sound.turn(!sound.isOn());
     for (const part of [legend, caption, log]) part.hidden = !sound.isOn();
     speaker.setAttribute("aria-pressed", String(sound.isOn()));
-    if (sound.isOn() && shown) hear();
+    if (sound.isOn()) hear();
   });
-  /** The same drive again, seen and heard. */
+  /** The same drive again, seen and heard, if one was driven with what is chosen. */
   function hear() {
-    if (!shown) return;
+    if (!isShown()) return;
     finish();
     tellSound(score(shown.lanes[heard()]));
     sound.start(written);
@@ -450,8 +453,8 @@ export function renderGame(model, el, address) {
       rows = here().map(judged),
       current = isShown() && isDone ? judged([on, k, c]) : null;
     roadButtons.forEach((made, i) => {
-      const isPassed = attempts().some((one) => one[0] === i && one[3] !== "link" && judged(one).isReached);
-      write(made, `${roadName(i)}${isPassed ? " ✓" : ""}`);
+      const mine = attempts().filter((one) => one[0] === i && one[3] !== "link");
+      write(made, `${roadName(i)}${scoreWords(mine.map(judged), levels[i])}`);
       made.setAttribute("aria-pressed", String(i === on));
     });
     write(task, `${on ? `${roadWords(goal(), isSeen(), isUncovered())} ` : ""}${taskWords(goal(), asked)}`);

@@ -76,6 +76,16 @@ function failed({ lanes }) {
   return parts.length ? `${capital(list(parts))}.` : "";
 }
 
+/** The best of some attempts that do what is asked for, for a button: " ✓ 1.09", or nothing. */
+export function scoreWords(attempts, { kind }) {
+  const scores = attempts
+    .filter(({ isReached }) => isReached)
+    .map(({ distance, air }) => (kind === "air" ? air : distance));
+  if (!scores.length) return "";
+  const best = Math.min(...scores);
+  return `\u00a0✓ ${kind === "air" ? percent(best) : show(best)}`;
+}
+
 /** Whether an attempt is as good as the answer to beat. */
 export function isBest({ isReached, distance, air }, goal) {
   if (goal.kind === "air") return isReached && air <= goal.air + SAME;

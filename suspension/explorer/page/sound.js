@@ -10,6 +10,7 @@ export const SECONDS = 3, // a crossing takes to hear, whatever its speed
 const POINTS = 240, // of a tone
   LOUD = 0.25, // of a tone; the least force that is heard at full strength is a quarter of the load
   KNOCK = 0.9,
+  ALL = 0.7, // of everything together
   CHIME = 0.18,
   NOTE = 0.07; // seconds
 const [LOWEST, HIGHEST] = [0.25, 6]; // times the load: beyond, the pitch stays
@@ -129,7 +130,7 @@ export function play(context, { seconds, voices, knocks, chimes }, start) {
   const master = context.createGain(),
     sources = [];
   master.gain.setValueAtTime(0, start);
-  master.gain.linearRampToValueAtTime(1, start + 0.02);
+  master.gain.linearRampToValueAtTime(ALL, start + 0.02);
   master.connect(context.destination);
   const tone = (type, pan, from, to) => {
     const source = context.createOscillator(),
