@@ -6,6 +6,7 @@ import { readLink, writeLink } from "../page/game_link.js";
 import { firstZero, leastOf } from "../page/game_run.js";
 import {
   attemptRow,
+  changeWords,
   isBest,
   laneRow,
   laneWords,
@@ -62,6 +63,13 @@ test("a lane says how it went, and no force after a loss", () => {
   assert.deepEqual(laneRow(lost(1)).map(plain), ["1 m/s", "lost", "–", "front, X = 0.21 m", "4 %"]);
   assert.deepEqual(laneRow(kept(1)).map(plain), ["1 m/s", "kept", "2 N", "rear, X = 0.3 m", "0"]);
   assert.equal(laneRow(short(1))[1], "too little left");
+});
+
+test("what is chosen is told by how far it is from what is there", () => {
+  const facts = { own: { k: 800, c: 1.5 } };
+  assert.equal(plain(changeWords(facts, 800, 1.5)), "d = 0: the suspension as it is.");
+  assert.equal(plain(changeWords(facts, 400, 1.5)), "d = 0.693: k 0.5 times as it is, c as it is.");
+  assert.equal(plain(changeWords(facts, 400, 3)), "d = 0.98: k 0.5 times as it is, c 2 times as it is.");
 });
 
 test("a verdict has a branch for every way an attempt can go", () => {

@@ -3,9 +3,10 @@
 
 import { button, make, write } from "./dom.js";
 import { drawLanes, drawMap, lanesLabel, makeRegion, makeRegionPicture, mapFrame } from "./game_draw.js";
-import { change, makeTrack } from "./game_run.js";
+import { makeTrack } from "./game_run.js";
 import {
   attemptRow,
+  changeWords,
   isBest,
   KEY,
   laneRow,
@@ -15,9 +16,10 @@ import {
   roadName,
   roadWords,
   taskWords,
+  times,
   verdict,
 } from "./game_words.js";
-import { begin, clamp, plain, show } from "./pen.js";
+import { begin, clamp, plain } from "./pen.js";
 import { LEGEND, makeSound, SECONDS, score } from "./sound.js";
 import { coloursOf, onTheme } from "./theme.js";
 import { unit } from "./words.js";
@@ -206,7 +208,6 @@ export function renderGame(model, el, address) {
       },
     };
   });
-  const times = (ratio) => (Math.abs(ratio - 1) < 1e-9 ? "as it is" : `${show(ratio)} times as it is`);
 
   // ---- what one does
 
@@ -459,10 +460,7 @@ export function renderGame(model, el, address) {
     });
     write(task, `${on ? `${roadWords(goal(), isSeen(), isUncovered())} ` : ""}${taskWords(goal(), asked)}`);
     controls.forEach((control, i) => control.show([k, c][i]));
-    write(
-      far,
-      `${KNOBS.map(([name]) => `${name}: ${times({ k, c }[name] / own[name])}`).join("; ")}. d = ${show(change(facts, k, c))}.`,
-    );
+    write(far, changeWords(facts, k, c));
     const told = current && verdict(current, goal());
     root.dataset.tone = told?.tone ?? "open";
     write(said, playing ? "Driving …" : (told?.words ?? "Choose stiffness and damping, then drive."));

@@ -88,7 +88,7 @@ export function mapFrame(w, h, { ranges: { k, c } }) {
   };
 }
 
-/** A map that is filled by `work` in small portions, which tells whether there is more to do. */
+/** A map of the margins at each speed that is filled in small portions. */
 export function makeRegion(level, { ranges, asked }, sketch) {
   const grid = ([low, high], count) =>
     Array.from({ length: count }, (_, i) => low * (high / low) ** (i / (count - 1)));
@@ -98,7 +98,9 @@ export function makeRegion(level, { ranges, asked }, sketch) {
     margins: asked.map(() => []), // of each speed, a row for each damping
     /** Rows that are filled. */
     rows: () => region.margins[0].filter((row) => row.length === COLUMNS).length,
+    /** Whether there was something to do: the last portion has to be drawn, too. */
     work(portion) {
+      if (region.rows() === ROWS) return false;
       const start = performance.now();
       while (region.rows() < ROWS && performance.now() - start < portion) {
         const rows = region.margins[0];
@@ -107,10 +109,29 @@ export function makeRegion(level, { ranges, asked }, sketch) {
           found = sketch(level, region.ks[rows[row].length], region.cs[row]);
         found.forEach((margin, i) => region.margins[i][row].push(margin));
       }
-      return region.rows() < ROWS;
+      return true;
     },
   };
   return region;
+}
+
+/** For each speed the short straight lines that part where it fails from where it does not, once all is known. */
+function bordersOf(region, { reserve }) {
+  if (region.rows() < ROWS) return [];
+  region.borders ??= region.margins.map((rows) => {
+    const margins = rows.map((row) => row.map((margin) => margin - reserve));
+    return zeroLine({ margins, speeds: region.ks, stiffnesses: region.cs });
+  });
+  return region.borders;
+}
+
+/** The speed beside each border, where there is room for it. */
+function nameBorders({ text }, { px, py }, region, goal, asked) {
+  bordersOf(region, goal).forEach((border, n) => {
+    const words = unit(asked[n], "m/s"),
+      places = [0.5, 0.3, 0.7, 0.15, 0.85, 0.95].map((part) => border[Math.floor(part * border.length)]);
+    places.some((at) => at && text(words, px(at[0][0]) + 5, py(at[0][1]) - 5, { colour: "ink", halo: true }));
+  });
 }
 
 /** How many speeds fail at a place between the nodes of the map: [column, row]. */
@@ -125,7 +146,7 @@ function failing({ margins }, [x, y], reserve) {
 
 /** The region where all is kept, a border for each speed, and how far away the answer to beat is. */
 function drawRegion(pen, frame, region, goal, { asked, own }) {
-  const { shade, stroke, line, text } = pen,
+  const { shade, stroke, line } = pen,
     { left, right, top, bottom, px, py } = frame,
     rows = region.rows();
   const [nx, ny] = [PARTS * (COLUMNS - 1), PARTS * (ROWS - 1)],
@@ -138,16 +159,9 @@ function drawRegion(pen, frame, region, goal, { asked, own }) {
       shade(colour, alpha, x(j), y(i + 1), x(j + 1) - x(j), y(i) - y(i + 1));
     }
   }
-  if (rows < ROWS) return;
-  asked.forEach((v, n) => {
-    const margins = region.margins[n].map((row) => row.map((margin) => margin - goal.reserve)),
-      lines = zeroLine({ margins, speeds: region.ks, stiffnesses: region.cs });
-    stroke("ink", 1.3);
-    for (const [a, b] of lines) line(px(a[0]), py(a[1]), px(b[0]), py(b[1]));
-    const middle = lines[Math.floor(lines.length * (0.3 + (0.4 * n) / asked.length))];
-    if (middle)
-      text(unit(v, "m/s"), px(middle[0][0]) + 4, py(middle[0][1]) - 4, { colour: "ink", halo: true });
-  });
+  stroke("ink", 1.3);
+  for (const border of bordersOf(region, goal))
+    for (const [a, b] of border) line(px(a[0]), py(a[1]), px(b[0]), py(b[1]));
   if (goal.kind === "air" || !goal.distance) return;
   stroke("soft", 1.4, [5, 4]);
   const points = Array.from({ length: 73 }, (_, i) => {
@@ -217,6 +231,7 @@ export function drawMap(pen, facts, { goal, attempts, chosen, region, picture })
       text(String(n + 1), u + 8, v + 12, { halo: true, colour: "ink", bold: true });
     });
     dot(px(chosen.k), py(chosen.c), 10, null, "front", 2.5);
+    if (region) nameBorders(pen, frame, region, goal, facts.asked);
   });
   stroke("soft", 1);
   line(left, top, left, bottom, right, bottom);

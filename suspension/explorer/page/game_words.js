@@ -1,6 +1,7 @@
 // What a game says: the task, a lane, the verdict on an attempt. One function for each thing that is
 // told, a branch for each case.
 
+import { change } from "./game_run.js";
 import { show } from "./pen.js";
 import { unit, WHEEL } from "./words.js";
 
@@ -46,6 +47,18 @@ export function taskWords({ kind, reserve, distance, air }, asked) {
   return distance
     ? `${more}, with as little change as you can. ${beat}`
     : `${more}. That it has, too, and no suspension of the map has a tenth of the load more: nothing has to be changed.`;
+}
+
+/** A ratio to the present suspension. */
+export const times = (ratio) =>
+  Math.abs(ratio - 1) < SAME ? "as it is" : `${show(ratio)}\u00a0times as it is`;
+
+/** How far what is chosen is from the present suspension. */
+export function changeWords(facts, k, c) {
+  const { own } = facts,
+    d = change(facts, k, c);
+  if (d < SAME) return "d\u00a0=\u00a00: the suspension as it is.";
+  return `d\u00a0=\u00a0${show(d)}: k ${times(k / own.k)}, c ${times(c / own.c)}.`;
 }
 
 /** How a speed went, short. */
