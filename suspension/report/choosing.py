@@ -28,6 +28,7 @@ __all__ = [
     "conclusions",
     "drive_links",
     "farthest",
+    "game_note",
     "measured_length",
     "rest_note",
     "robust_table",
@@ -138,6 +139,29 @@ def rest_note(fit, robot):
         f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VIII]"
         "(08-measured-spring.ipynb) says what else that changes."
     )
+
+
+def game_note(robot, fit):
+    """With which robot the game of the laboratory is played, if it is not quite the one at hand.
+
+    Parameters
+    ----------
+    robot : Robot
+    fit : suspension.springs.SpringFit
+        Of its springs.
+    """
+    words = []
+    if robot.twin != robot:
+        words.append(
+            "The robot is not symmetric. The game is played with its **symmetric twin**, which has "
+            "the means of both axles."
+        )
+    if not fit.linearity().linear:
+        words.append(
+            "The readings contradict a spring without preload and curvature. The game is played "
+            f"with a straight spring of its stiffness at zero, {quantity(fit.stiffness, 'N/m')}."
+        )
+    return " ".join(words)
 
 
 def measured_length(stiffest, limit):
