@@ -58,7 +58,7 @@ const robotPanel = {
       const theirs = new Float64Array(4);
       [rear, front].forEach((offset, i) => ghost.scene.road(X + offset, theirs, i, 0));
       drawRobot(pen, ghost.scene, { ...place, u: theirs }, ghost.state, true);
-      text(ghostWords(motion, pinned), 0, 13);
+      ghostWords(motion, pinned).some((words) => text(words, 0, 13));
     }
     const shown = now[motion],
       wild = drawRobot(pen, scene, place, shown, false);
@@ -73,7 +73,7 @@ const robotPanel = {
         halo: true,
       });
       if (data.springEnd !== null && spring > data.springEnd) {
-        text(FURTHER, i ? w : 0, 30, {
+        text(FURTHER, i ? w : 0, 36, {
           align: i ? "right" : "left",
           colour: "doubt",
           bold: true,
@@ -122,12 +122,13 @@ const forcesPanel = {
     this.frame = { left, right, top, bottom, px, py, end };
 
     text(right > 300 ? "Normal forces (N)" : "Forces (N)", 0, 13, { colour: "ink", bold: true });
+    const isWide = right > 250; // for the wheels' names
     pen.legend(
-      right - 164,
+      right - (isWide ? 164 : 96),
       13,
-      right,
+      right + (isWide ? 0 : 16),
       WHEEL.map((wheel, i) => ({
-        words: `${NAMES[i]} ${wheel}`,
+        words: isWide ? `${NAMES[i]} ${wheel}` : NAMES[i],
         colour: wheel,
         width: 2,
         dash: DASH[i],
@@ -136,7 +137,7 @@ const forcesPanel = {
     );
     pen.legend(left, h - 4, right - 34, [
       { words: flying ? "linear" : "exact", colour: "soft", width: 6, alpha: 0.3 },
-      ...(pinned ? [{ words: "pinned", colour: "soft", width: 1.5 }] : []),
+      ...(pinned ? [{ words: "pinned", colour: "pinned", width: 1.5 }] : []),
       ...(beyond.length
         ? [{ words: `spring > ${show(1000 * data.springEnd)} mm`, colour: "doubt", width: 4, alpha: 0.6 }]
         : []),
@@ -177,7 +178,7 @@ const forcesPanel = {
       if (pinned) {
         for (const i of [0, 1]) {
           stroke(
-            "soft",
+            "pinned",
             1.5,
             DASH[i],
             trace(pinned.N[i], (m) => px((m * pinned.dt * pinned.v) / v), py, right - left),
@@ -284,7 +285,7 @@ const speedsPanel = {
       { curve, data, robot } = scene;
     const { speeds, least, critical } = curve,
       [lowest, highestSpeed] = data.ranges.v;
-    const [left, right, top, bottom] = [38, w - 12, 46, h - 33],
+    const [left, right, top, bottom] = [38, w - 12, 49, h - 33],
       rest = Math.max(...robot.weight);
     const bottomForce = Math.min(...[...least, ...(pinned?.least ?? [])].map((N) => Math.min(...N)));
     const low = Math.max(1.1 * Math.min(bottomForce, -0.4 * rest), -7 * rest),
@@ -325,7 +326,7 @@ const speedsPanel = {
       if (pinned)
         for (const i of [0, 1])
           stroke(
-            "soft",
+            "pinned",
             1.5,
             DASH[i],
             trace(pinned.least[i], (m) => px(speeds[m]), py, FAR),
@@ -437,7 +438,7 @@ const stabilityPanel = {
         }
       }
       fill("soft", 1, others);
-      if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "soft", 1.5));
+      if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "pinned", 1.5));
       robot.modes.forEach(([re, im], i) =>
         dot(px(re * dt), py(im * dt), main ? 5.5 : 4.5, growths[i] > 1 + 1e-12 ? "alarm" : "ink", "paper"),
       );

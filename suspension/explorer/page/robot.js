@@ -59,7 +59,15 @@ export function drawRobot(
   if (faint) g.globalAlpha = 0.3;
   g.lineCap = "round";
   stroke("ink", 8 * z);
-  line(...body.flat());
+  const slope = (body[1][1] - body[0][1]) / (body[1][0] - body[0][0]),
+    over = (15 * z) / Math.hypot(1, slope); // springs and dampers stand under it
+  line(
+    body[0][0] - over,
+    body[0][1] - over * slope,
+    ...body.flat(),
+    body[1][0] + over,
+    body[1][1] + over * slope,
+  );
   g.lineCap = "butt";
   if (!faint) {
     const share = (0 - data.wheels[0]) / (data.wheels[1] - data.wheels[0]); // the centre of mass
