@@ -56,7 +56,7 @@ class Own(Instrument):
         ``height`` and ``sigma``, or of kind "points" with ``x``, ``h`` and, if not 1 and "pchip",
         the factors ``long`` and ``tall`` and what joins the points, ``join``; ``v``;
         ``distance``, or None for the usual one; ``alike``, whether both axles change together;
-        ``units``, "SI" or "everyday"; ``from``, the vehicle that one started from.
+        ``units``, "mm" (and m/s) or "cm" (and km/h); ``from``, the vehicle that one started from.
 
     Raises
     ------
@@ -87,7 +87,7 @@ class Own(Instrument):
             "v": first["v"],
             "distance": None,
             "alike": robot == robot.twin,
-            "units": "SI",
+            "units": "mm",
             "from": 0,
         }
         super().__init__(facts=facts, state=self._start)

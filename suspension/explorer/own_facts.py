@@ -154,7 +154,7 @@ def vehicles_of(robot, bump, v):
                 own,
                 GaussianBump(car.height, sigma),
                 float(f"{np.sqrt(car.slow * car.fast) / 3.6:.2g}"),
-                f"Spring, damper and load of one wheel, as published ({car.cited_as}), on both "
+                f"Spring, damper and load of one wheel, as published by {car.cited_as}, on both "
                 "axles. The wheelbase is assumed, and the mass sits over the wheels.",
             )
         )

@@ -18,7 +18,8 @@ import {
 } from "./own_run.js";
 import { bumpOf, isSymmetric, PAIRS, pointsOf, usualWay } from "./own_state.js";
 
-const SPEEDS = 72, // of the curve
+const SPEEDS = 72, // of the curve at first
+  FINE = 240, // and later
   MOST_RIPPLES = 40, // of the margin in a factor e of speeds, as in Python
   ENDS = [0.1, 26]; // of the speeds, in widths passed in a swing's 1/omega0
 
@@ -34,7 +35,9 @@ function twinOf(robot) {
 
 /** The five groups, by name; nu is that of a speed. */
 export const groupsOf = (facts, values) =>
-  Object.fromEntries(Object.entries(facts.groups).map(([name, product]) => [name, productOf(product, values)]));
+  Object.fromEntries(
+    Object.entries(facts.groups).map(([name, product]) => [name, productOf(product, values)]),
+  );
 
 /** The height of a limit by hand, in sags, at a speed nu. */
 export const limitOf = (limit, { nu, zeta, j }) => productOf(limit, { nu, zeta, "1 + j": 1 + j });
@@ -75,7 +78,7 @@ export function makeScene(facts, state) {
     groups: isSymmetric(state) ? twin : null,
     legs: makeWay(vehicle, pieces, distance),
     isTooLong: isTooLong(vehicle, distance, v),
-    curve: null, // { v, multiple } once all its speeds are known
+    curve: null, // { v, multiple } of the speeds that are known, from the fastest on
     standIn: null, // the same of the bump that is as high and as steep as a drawn road
     critical: null, // [speeds] of a first look, then of a thorough one
     isSure: false, // whether it was thorough
@@ -100,19 +103,26 @@ function countOf({ state: { robot }, shape, isBump, isLevel, speeds: [low, high]
 export function* everySpeed(scene, facts) {
   const { vehicle, legs, speeds, shape, isBump, isLevel, distance } = scene,
     [low, high] = speeds,
-    ratio = (high / low) ** (1 / (SPEEDS - 1)),
-    v = Array.from({ length: SPEEDS }, (_, i) => (i === SPEEDS - 1 ? high : low * ratio ** i)),
+    spread = (count) =>
+      Array.from({ length: count }, (_, i) =>
+        i === count - 1 ? high : low * (high / low) ** (i / (count - 1)),
+      ),
+    v = spread(SPEEDS),
     marginAt = (v) => marginOf(vehicle, falls(vehicle, legs, v));
-  const curveOver = function* (legs) {
-    const found = Array(SPEEDS);
-    for (let i = SPEEDS - 1; i >= 0; i--) {
-      found[i] = falls(vehicle, legs, v[i]);
+  /** From fast to slow, for the slow ones take longest: what is known of a curve is drawn. */
+  const curveOver = function* (legs, curve, v) {
+    const margins = [];
+    for (const speed of [...v].reverse()) {
+      const fallen = falls(vehicle, legs, speed);
+      curve.v.unshift(speed);
+      curve.multiple.unshift(multipleOf(vehicle, fallen));
+      margins.unshift(marginOf(vehicle, fallen));
       yield;
     }
-    return found;
+    return margins;
   };
-  const fallen = yield* curveOver(legs),
-    margins = fallen.map((one) => marginOf(vehicle, one));
+  scene.curve = { v: [], multiple: [] };
+  const margins = yield* curveOver(legs, scene.curve, v);
   const critical = [];
   for (let i = 0; i + 1 < SPEEDS; i++)
     if (margins[i] > 0 !== margins[i + 1] > 0) {
@@ -120,15 +130,18 @@ export function* everySpeed(scene, facts) {
       yield;
     }
   scene.kept = margins[0] > 0;
-  scene.curve = { v, multiple: fallen.map((one) => multipleOf(vehicle, one)) };
   scene.critical = critical;
   yield "curve";
   if (!isBump && !isLevel && shape.height > 0) {
-    const way = makeWay(vehicle, bumpPieces(facts.bump, standInOf(scene, facts)), distance),
-      found = yield* curveOver(way);
-    scene.standIn = { v, multiple: found.map((one) => multipleOf(vehicle, one)) };
+    const standIn = { v: [], multiple: [] };
+    yield* curveOver(makeWay(vehicle, bumpPieces(facts.bump, standInOf(scene, facts)), distance), standIn, v);
+    scene.standIn = standIn;
     yield "stand-in";
   }
+  const fine = { v: [], multiple: [] };
+  yield* curveOver(legs, fine, spread(FINE));
+  scene.curve = fine;
+  yield "fine";
   if (!isLevel) scene.critical = yield* search(marginAt, low, high, countOf(scene));
   scene.isSure = true;
 }

@@ -1,7 +1,7 @@
 // What one sets: the robot's numbers, its road, its speed, and in which units one reads them. Here it is
 // checked, changed, written into an address and into lines of Python, and read from either.
 
-import { heightAt, piecesOf, shapeOf } from "./own_run.js";
+import { heightAt, shapeOf } from "./own_run.js";
 import { clamp } from "./pen.js";
 import { readNumber } from "./state.js";
 
@@ -25,8 +25,8 @@ const ALWAYS = {
   far: [1, "m"],
 };
 export const UNITS = {
-  SI: { ...ALWAYS, speed: [1, "m/s"], length: [1, "m"] },
-  everyday: { ...ALWAYS, speed: [3.6, "km/h"], length: [100, "cm"] },
+  mm: { ...ALWAYS, speed: [1, "m/s"], length: [1000, "mm"] },
+  cm: { ...ALWAYS, speed: [3.6, "km/h"], length: [100, "cm"] },
 };
 export const KINDS = {
   ...{ m: "mass", Izz: "inertia", L1: "length", L2: "length", k1: "stiffness", k2: "stiffness" },
@@ -46,8 +46,7 @@ export const bumpOf = ({ ground: { height, sigma }, robot }, { lead }) => ({
 });
 
 /** Where a road of points begins: at height 0, a part of the wheelbase ahead of the front wheel. */
-const beginOf = ({ robot: { L1, L2 } }, { ahead }) =>
-  Number((L2 + ahead * (L1 + L2)).toPrecision(NEAR));
+const beginOf = ({ robot: { L1, L2 } }, { ahead }) => Number((L2 + ahead * (L1 + L2)).toPrecision(NEAR));
 
 /** The points of the road that a state holds. */
 export function pointsOf(state, facts) {
@@ -137,7 +136,7 @@ export function readState(raw, facts) {
   const alike = raw.alike === true && PAIRS.every(([rear, front]) => robot[rear] === robot[front]);
   return {
     ...{ robot, ground, v: raw.v, distance, alike },
-    units: Object.hasOwn(UNITS, raw.units) ? raw.units : "SI",
+    units: Object.hasOwn(UNITS, raw.units) ? raw.units : "mm",
     from: Number.isInteger(raw.from) && raw.from >= 0 && raw.from < vehicles.length ? raw.from : 0,
   };
 }
@@ -146,14 +145,13 @@ export function readState(raw, facts) {
 export const startFrom = (index, { vehicles }, units) => {
   const { robot, bump, v } = vehicles[index];
   return {
-    robot: { ...robot },
-    ground: { kind: "bump", ...bump },
-    ...{ v, distance: null, units, from: index },
+    ...{ robot: { ...robot }, ground: { kind: "bump", ...bump }, v, distance: null },
     alike: PAIRS.every(([rear, front]) => robot[rear] === robot[front]),
+    ...{ units, from: index },
   };
 };
 
-export const valueOf = (name, { robot, ground, v, distance }, usual) => {
+export const numberOf = (name, { robot, ground, v, distance }, usual) => {
   if (NUMBERS.includes(name)) return robot[name];
   if (name === "v") return v;
   if (name === "distance") return distance ?? usual;
@@ -210,7 +208,7 @@ const squared = (high) => ({
 
 /** The scale of a number's slider: around what one started from, or around the value if that is far. */
 export function scaleOf(name, state, facts, { usual, speeds }) {
-  const value = valueOf(name, state, usual),
+  const value = numberOf(name, state, usual),
     { robot, bump } = facts.vehicles[state.from],
     [low, high] = facts.limits[name];
   if (name === "c1" || name === "c2") {
@@ -218,7 +216,7 @@ export function scaleOf(name, state, facts, { usual, speeds }) {
     return squared(Math.max(top, robot.c1, robot.c2, value > top ? 2 * value : 0));
   }
   if (name === "v") return logarithmic(Math.min(speeds[0], value), Math.max(speeds[1], value));
-  const base = { ...robot, ...bump, distance: usual }[name] ?? valueOf(name, withOnes(state), usual),
+  const base = { ...robot, ...bump, distance: usual }[name] ?? numberOf(name, withOnes(state), usual),
     middle = value < base / 10 || value > base * 10 ? value : base;
   return logarithmic(Math.max(low, middle / 10), Math.min(high, middle * 10));
 }
@@ -253,7 +251,9 @@ export function smooth(heights, [from, to] = [1, heights.length - 2], times = 1)
   let now = heights;
   for (let n = 0; n < times; n++)
     now = now.map((height, i) =>
-      i > 0 && i < now.length - 1 && i >= from && i <= to ? (now[i - 1] + 2 * height + now[i + 1]) / 4 : height,
+      i > 0 && i < now.length - 1 && i >= from && i <= to
+        ? (now[i - 1] + 2 * height + now[i + 1]) / 4
+        : height,
     );
   return now;
 }
@@ -279,7 +279,10 @@ export function readRoad(text, [ofX, ofH], facts, join = "pchip") {
     if (!line.trim() || line.trim().startsWith("#")) continue;
     const read = readLine(line);
     if (!x.length && !lines.length && !/\d/.test(line)) continue; // what the columns are called
-    if (!read) return { error: `Line ${i + 1}: two numbers are asked for, x and h, got “${line.trim().slice(0, 40)}”.` };
+    if (!read)
+      return {
+        error: `Line ${i + 1}: two numbers are asked for, x and h, got “${line.trim().slice(0, 40)}”.`,
+      };
     if (read.includes(null))
       return {
         error: `Line ${i + 1}: ${read[0] === null ? "x" : "h"} must be a number, got “${line.trim().slice(0, 40)}”.`,
@@ -309,7 +312,7 @@ export function writeLink({ robot, ground, v, distance, alike, units, from }) {
   }
   if (distance !== null) parts.set("distance", short(distance));
   if (alike) parts.set("alike", "1");
-  if (units !== "SI") parts.set("units", units);
+  if (units !== "mm") parts.set("units", units);
   if (from) parts.set("from", short(from));
   return PREFIX + parts.toString();
 }

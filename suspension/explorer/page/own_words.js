@@ -9,6 +9,14 @@ const SPACE = "\u00a0",
   WHEEL = ["rear", "front"],
   NEAR = 0.5; // of a limit, within which it says what happens
 
+const GROUPS = [
+  ["ν", "v / σω₀", "nu", "speed: widths passed in a swing's 1/ω₀"],
+  ["ζ", "c / √(2km)", "zeta", "damping, as a part of the critical"],
+  ["η", "h₀ / (mg/2k)", "eta", "height, in sags of the springs"],
+  ["j", "Izz / mL²", "j", "inertia: 1 if the mass sits over the wheels"],
+  ["λ", "L / σ", "lam", "half of the wheelbase, in widths"],
+];
+
 /** A quantity of a kind in the units that are read. */
 export function say(x, kind, { units }, digits = 3) {
   const [factor, unit] = UNITS[units][kind];
@@ -31,7 +39,8 @@ export function tellVerdict(scene) {
   if (!lost) {
     const wheel = least[0].force <= least[1].force ? 0 : 1,
       { force, X } = least[wheel];
-    if (isLevel) return { tone: "kept", words: `The road is level: contact is kept ${at}, and at any speed.` };
+    if (isLevel)
+      return { tone: "kept", words: `The road is level: contact is kept ${at}, and at any speed.` };
     return {
       tone: "kept",
       words: `Contact is kept ${at}. The least force is ${of(force, "N")}, ${percent(force / vehicle.load[wheel])} of its load, on the ${WHEEL[wheel]} wheel at X = ${say(X, "far", state)}.`,
@@ -114,23 +123,20 @@ function nearestLimit({ groups, multiple }, { byHand }) {
 }
 
 /** What the chart has besides, where the road is no bump. */
-export function tellStandIn({ shape, isBump, isLevel, state }) {
-  if (isBump || isLevel) return "";
-  const bump = `${say(Math.abs(shape.height), "length", state)} ${shape.height < 0 ? "deep" : "high"} and as steep as the road, σ${SPACE}=${SPACE}${say(shape.sigma, "length", state)}`;
-  return shape.height < 0
-    ? `ν and λ are those of a hole ${bump}. The limits by hand are for bumps, and a hole has none.`
-    : `ν and λ are those of a bump ${bump}. Its own curve is dashed: what the road's shape does beyond height and slope lies between the two.`;
+export function tellStandIn({ shape, isBump, isLevel, groups, state }) {
+  if (isBump || isLevel)
+    return "Draw on the road: with the mouse, with a finger that pulls sideways, or with the arrow keys.";
+  const isHole = shape.height < 0,
+    alike = `${isHole ? "a hole" : "a bump"} ${say(Math.abs(shape.height), "length", state)} ${isHole ? "deep" : "high"} and as steep as the road, σ${SPACE}=${SPACE}${say(shape.sigma, "length", state)}`,
+    whose = groups ? `ν and λ are those of ${alike}.` : `Alike is ${alike}.`;
+  return isHole
+    ? `${whose} The limits by hand are for bumps; a hole has none.`
+    : `${whose} Its curve is dotted: what else the road's shape does lies between the two.`;
 }
 
-/** The groups: symbol, formula, value, what it says. Of an unsymmetric robot there are none. */
+/** The groups: symbol, formula, value, what it says. An unsymmetric robot has none. */
 export const groupRows = ({ groups }) =>
-  [
-    ["ν", "v / σω₀", "nu", "speed: widths passed in a swing's 1/ω₀"],
-    ["ζ", "c / √(2km)", "zeta", "damping, as a part of the critical"],
-    ["η", "h₀ / (mg/2k)", "eta", "height, in sags of the springs"],
-    ["j", "Izz / mL²", "j", "inertia: 1 if the mass sits over the wheels"],
-    ["λ", "L / σ", "lam", "half of the wheelbase, in widths"],
-  ].map(([symbol, formula, name, says]) => [symbol, formula, groups ? show(groups[name], 4) : "–", says]);
+  groups ? GROUPS.map(([symbol, formula, name, says]) => [symbol, formula, show(groups[name], 4), says]) : [];
 
 /** How the robot swings, mode by mode, and how it stands at rest. */
 export function tellModes({ vehicle: { modes, equilibrium }, state }) {
@@ -138,13 +144,17 @@ export function tellModes({ vehicle: { modes, equilibrium }, state }) {
       .filter(([, im]) => im > 0)
       .map(([re, im]) => {
         const size = Math.hypot(re, im),
-          damping = re === 0 ? "undamped" : `damping ${show(-re / size)} of the critical`;
-        return `swings at ${of(size / (2 * Math.PI), "Hz")}, ${damping}`;
+          damping = re === 0 ? "no damping" : `${show(-re / size)} of the critical damping`;
+        return `${of(size / (2 * Math.PI), "Hz")} (${damping})`;
       }),
     decays = modes.filter(([, im]) => im === 0).map(([re]) => of(-1 / re, "s")),
-    slow = decays.length ? `comes back without a swing, in ${join(decays)}` : "";
-  const tilt = Math.abs(equilibrium[2]) < 1e-12 ? "" : `, and tilts by ${of((180 * equilibrium[2]) / Math.PI, "°", 2)}`;
-  return `It ${join([...swings, slow].filter(Boolean))}. At rest it sags by ${say(-equilibrium[0], "length", state)}${tilt}.`;
+    does = [
+      swings.length ? `swings at ${join(swings)}` : "",
+      decays.length ? `comes back without a swing in ${join(decays)}` : "",
+    ];
+  const tilt =
+    Math.abs(equilibrium[2]) < 1e-12 ? "" : `, and tilts by ${of((180 * equilibrium[2]) / Math.PI, "°", 2)}`;
+  return `It ${join(does.filter(Boolean))}. At rest it sags by ${say(-equilibrium[0], "length", state)}${tilt}.`;
 }
 
 /** Whether the way is long enough to see all. */
