@@ -118,9 +118,9 @@ class Own(Instrument):
         tall, long = (_checks.positive(name, ground.get(name, 1.0)) for name in ("tall", "long"))
         x, h = (_checks.array(name, ground.get(name), (None,)) for name in ("x", "h"))
         begin = float(f"{robot.L2 + AHEAD * (robot.L1 + robot.L2):.12g}")
-        return RoadProfile(
-            begin + long * (x - x[:1].sum()), tall * (h - h[:1].sum()), ground.get("join", "pchip")
-        )
+        if len(x) and len(h):  # else the road says what is missing
+            x, h = begin + long * (x - x[0]), tall * (h - h[0])
+        return RoadProfile(x, h, ground.get("join", "pchip"))
 
     @property
     def robot(self):
@@ -186,6 +186,9 @@ class Own(Instrument):
             curve = {G.zeta: y * heights / sag}
             ends = tuple(y * np.array(ETAS))
             plot_chart(x * nu, curve, lines, bump=point, own=G.zeta, heights=ends, ax=ax)
+            ax.legend().remove()
+            at = {"xytext": (9, 9), "textcoords": "offset points", "weight": "bold"}
+            ax.annotate("the vehicle", (x * G.nu, y * G.eta), **at)
             if robot != robot.twin:
                 ax.set(xlabel="speed $v$ (m/s)", ylabel="height of the bump (mm)")
         return svg(figure)

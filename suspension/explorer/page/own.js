@@ -41,8 +41,10 @@ import { addCopy } from "./take.js";
 import { coloursOf, onTheme } from "./theme.js";
 import { isPull, tameSliders } from "./touch.js";
 
-const AT_ONCE = 4, // ms of the curve over all speeds that are computed with a change
+const AT_ONCE = 3, // ms of the curve over all speeds that are computed with a change
   PORTION = 6, // ms of each portion of what comes later
+  BREATH = 25, // ms before the next portion of the curve, for a pull to come between
+  BETWEEN = 4, // ms before the next portion later
   REST = 150, // ms without a change, before what takes long begins
   NEAR = 26, // pixels from the vehicle on the chart at which one takes hold of it
   STRIDE = 0.01, // of a slider, for an arrow key
@@ -567,6 +569,7 @@ export function renderOwn(model, el) {
   away.addEventListener("toggle", () => tellPython());
   function tellPython() {
     if (!away.open || scene.isTooLong) return;
+    code.tabIndex = 0; // whatever the page's theme made of a box that did not scroll
     write(code, pythonOf(now(), facts, scene));
     offer();
   }
@@ -577,12 +580,15 @@ export function renderOwn(model, el) {
     const begun = performance.now(),
       state = now();
     if (scene?.state !== state) {
-      scene = makeScene(facts, state);
+      const before = scene;
+      scene = makeScene(facts, state, before);
       if (!stroke || !view) view = roadView(scene);
-      delete root.dataset.settled;
-      clearTimeout(timer);
-      job = scene.isTooLong ? null : everySpeed(scene, facts);
-      work(AT_ONCE);
+      if (scene.course !== before?.course) {
+        delete root.dataset.settled;
+        clearTimeout(timer);
+        job = everySpeed(scene.course, facts);
+        work(AT_ONCE);
+      }
     } else if (!stroke) view = roadView(scene);
     showState(state);
     tell();
@@ -598,13 +604,9 @@ export function renderOwn(model, el) {
     while (job && performance.now() - begun < most) {
       const { done, value } = job.next();
       if (done) job = null;
-      if (value || done) {
-        if (value === "curve") most = 0;
-        if (root.isConnected || value) later(value === "curve" ? REST : 0);
-        return;
-      }
+      if (value === "curve") return later(REST);
     }
-    later(0);
+    later(scene.critical ? BETWEEN : BREATH);
   }
   function later(pause) {
     clearTimeout(timer);
@@ -615,7 +617,7 @@ export function renderOwn(model, el) {
         after();
         cost += performance.now() - begun;
       }, pause);
-    else if (scene.isSure || scene.isTooLong) root.dataset.settled = "";
+    else root.dataset.settled = "";
   }
   function after() {
     tell();

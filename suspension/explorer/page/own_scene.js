@@ -44,64 +44,82 @@ export const limitOf = (limit, { nu, zeta, j }) => productOf(limit, { nu, zeta, 
 
 const round = (x) => Number(x.toPrecision(2));
 
-/** The verdict of a state, and what it needs; `isTooLong` says that there is none, the way takes too long. */
-export function makeScene(facts, state) {
-  const { v } = state,
-    vehicle = makeVehicle(facts.parts, state.robot),
-    isBump = state.ground.kind === "bump";
-  let pieces, end, shape;
+/** What does not depend on the speed: the robot, its road and its way, and what `everySpeed` fills in. */
+function makeCourse(facts, key, state) {
+  const { robot, ground } = state,
+    vehicle = makeVehicle(facts.parts, robot),
+    isBump = ground.kind === "bump";
+  let pieces, shape;
   if (isBump) {
-    const bump = bumpOf(state, facts);
-    [pieces, end] = [bumpPieces(facts.bump, bump), bump.centre + facts.clear * bump.sigma];
-    shape = { ...bump, from: bump.centre - facts.clear * bump.sigma, to: end };
+    const bump = bumpOf(state, facts),
+      reach = facts.clear * bump.sigma;
+    pieces = bumpPieces(facts.bump, bump);
+    shape = { ...bump, from: bump.centre - reach, to: bump.centre + reach };
   } else {
     const points = pointsOf(state, facts);
-    [pieces, end] = [piecesOf(points), points.x.at(-1)];
-    shape = { ...shapeOf(points), from: points.x[0], to: end, points };
+    pieces = piecesOf(points);
+    shape = { ...shapeOf(points), from: points.x[0], to: points.x.at(-1), points };
   }
-  const isLevel = shape.height === 0,
-    // A level road has no width of its own.
-    sigma = isLevel ? (shape.to - shape.from) / 10 : shape.sigma,
-    usual = usualWay(end, state.robot.L1, sigma, facts),
+  const { from, to, height } = shape,
+    isLevel = height === 0,
+    sigma = isLevel ? (to - from) / 10 : shape.sigma, // a level road has no width of its own
+    usual = usualWay(to, robot.L1, sigma, facts),
     distance = state.distance ?? usual,
-    values = { ...twinOf(state.robot), v, height: shape.height, sigma };
-  // What an unsymmetric robot has of its twin is no more than the scale of the chart.
-  const sag = productOf(facts.sag, values),
-    twin = { ...groupsOf(facts, values), eta: shape.height / sag },
-    unit = { v: v / twin.nu, sag };
+    // What an unsymmetric robot has of its twin is no more than the scale of the chart.
+    values = { ...twinOf(robot), v: 1, height, sigma },
+    unit = { v: 1 / groupsOf(facts, values).nu, sag: productOf(facts.sag, values) };
   const slowest = (vehicle.fastest * distance) / facts.longest,
-    first = round(Math.max(ENDS[0] * unit.v, slowest)),
-    speeds = [first, Math.max(round(ENDS[1] * unit.v), 2 * first)],
-    needed = end + state.robot.L1;
-  const scene = {
-    ...{ state, vehicle, pieces, shape, isBump, isLevel, usual, distance, needed, twin, unit, speeds },
-    groups: isSymmetric(state) ? twin : null,
+    first = round(Math.max(ENDS[0] * unit.v, slowest));
+  return {
+    ...{ key, vehicle, pieces, shape, isBump, isLevel, usual, distance, unit, values },
+    needed: to + robot.L1,
+    speeds: [first, Math.max(round(ENDS[1] * unit.v), 2 * first)],
     legs: makeWay(vehicle, pieces, distance),
-    isTooLong: isTooLong(vehicle, distance, v),
     curve: null, // { v, multiple } of the speeds that are known, from the fastest on
     standIn: null, // the same of the bump that is as high and as steep as a drawn road
-    critical: null, // [speeds] of a first look, then of a thorough one
+    critical: null, // speeds of a first look, then of a thorough one
     isSure: false, // whether it was thorough
   };
+}
+
+/**
+ * The verdict of a state, on a course that stands behind it; where only the speed has changed, it is that
+ * of the scene before. `isTooLong` says that there is no verdict, for the way takes too long.
+ */
+export function makeScene(facts, state, before = null) {
+  const key = JSON.stringify([state.robot, state.ground, state.distance]),
+    course = before?.course.key === key ? before.course : makeCourse(facts, key, state),
+    { vehicle, legs, distance, values, unit } = course,
+    { v } = state,
+    twin = { ...groupsOf(facts, { ...values, v }), eta: values.height / unit.sag };
+  const scene = Object.assign(Object.create(course), {
+    ...{ state, course, twin },
+    groups: isSymmetric(state) ? twin : null,
+    isTooLong: isTooLong(vehicle, distance, v),
+  });
   if (scene.isTooLong) return scene;
-  scene.least = leastForces(vehicle, scene.legs, v);
-  scene.lost = firstLoss(vehicle, scene.legs, v);
-  scene.until = scene.lost && leastForces(vehicle, scene.legs, v, scene.lost.X);
-  scene.multiple = multipleOf(vehicle, falls(vehicle, scene.legs, v));
-  scene.track = trackOf(vehicle, scene.legs, v);
+  scene.least = leastForces(vehicle, legs, v);
+  const isLost = scene.least.some(({ force }) => force <= 0);
+  scene.lost = isLost ? firstLoss(vehicle, legs, v) : null;
+  scene.until = scene.lost && leastForces(vehicle, legs, v, scene.lost.X);
+  scene.multiple = multipleOf(
+    vehicle,
+    scene.least.map(({ force }, i) => vehicle.load[i] - force),
+  );
+  scene.track = trackOf(vehicle, legs, v);
   return scene;
 }
 
 /** How many speeds a thorough search begins with: enough for every ripple, as in Python. */
-function countOf({ state: { robot }, shape, isBump, isLevel, speeds: [low, high] }) {
-  const apart = robot.L1 + robot.L2 + (isBump ? 0 : shape.to - shape.from),
+function countOf({ vehicle: { values }, shape, isBump, isLevel, speeds: [low, high] }) {
+  const apart = values.L1 + values.L2 + (isBump ? 0 : shape.to - shape.from),
     ripples = Math.min(1 + (isLevel ? 0 : apart / shape.sigma), MOST_RIPPLES);
   return 2 + Math.floor((20 + 10 * ripples) * Math.log(high / low));
 }
 
-/** A generator that fills in what needs every speed; it rests after each of them. */
-export function* everySpeed(scene, facts) {
-  const { vehicle, legs, speeds, shape, isBump, isLevel, distance } = scene,
+/** A generator that fills in what a course has at every speed; it rests after each of them. */
+export function* everySpeed(course, facts) {
+  const { vehicle, legs, speeds, shape, isBump, isLevel, distance } = course,
     [low, high] = speeds,
     spread = (count) =>
       Array.from({ length: count }, (_, i) =>
@@ -121,34 +139,38 @@ export function* everySpeed(scene, facts) {
     }
     return margins;
   };
-  scene.curve = { v: [], multiple: [] };
-  const margins = yield* curveOver(legs, scene.curve, v);
+  course.curve = { v: [], multiple: [] };
+  const margins = yield* curveOver(legs, course.curve, v);
   const critical = [];
   for (let i = 0; i + 1 < SPEEDS; i++)
     if (margins[i] > 0 !== margins[i + 1] > 0) {
       critical.push(zero(marginAt, v[i], v[i + 1], margins[i], margins[i + 1]));
       yield;
     }
-  scene.kept = margins[0] > 0;
-  scene.critical = critical;
+  course.kept = margins[0] > 0;
+  course.critical = critical;
   yield "curve";
   if (!isBump && !isLevel && shape.height > 0) {
     const standIn = { v: [], multiple: [] };
-    yield* curveOver(makeWay(vehicle, bumpPieces(facts.bump, standInOf(scene, facts)), distance), standIn, v);
-    scene.standIn = standIn;
+    yield* curveOver(
+      makeWay(vehicle, bumpPieces(facts.bump, standInOf(course, facts)), distance),
+      standIn,
+      v,
+    );
+    course.standIn = standIn;
     yield "stand-in";
   }
   const fine = { v: [], multiple: [] };
   yield* curveOver(legs, fine, spread(FINE));
-  scene.curve = fine;
+  course.curve = fine;
   yield "fine";
-  if (!isLevel) scene.critical = yield* search(marginAt, low, high, countOf(scene));
-  scene.isSure = true;
+  if (!isLevel) course.critical = yield* search(marginAt, low, high, countOf(course));
+  course.isSure = true;
 }
 
 /** The bump that is as high and as steep as the road, where the road begins. */
-export const standInOf = ({ shape, state: { robot } }, { lead }) => ({
+export const standInOf = ({ shape, vehicle: { values } }, { lead }) => ({
   height: shape.height,
   sigma: shape.sigma,
-  centre: robot.L2 + lead * shape.sigma,
+  centre: values.L2 + lead * shape.sigma,
 });

@@ -67,11 +67,11 @@ export function wheelRows({ state, vehicle, least, lost, until, isTooLong }) {
 }
 
 /** In which ranges of speed contact is kept, and which of the speeds are critical. */
-export function tellSpeeds({ state, speeds, critical, kept, isSure, isLevel, isTooLong }) {
+export function tellSpeeds({ state, speeds, critical, kept, isSure, isLevel }) {
   if (isLevel) return "";
   const [low, high] = speeds,
     ends = `From ${show(UNITS[state.units].speed[0] * low)} to ${say(high, "speed", state)}`;
-  if (!critical) return isTooLong ? "" : `${ends}: looking …`;
+  if (!critical) return `${ends}: looking …`;
   const edges = [low, ...critical, high];
   const spans = edges
     .slice(1)
