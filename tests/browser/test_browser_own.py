@@ -416,7 +416,7 @@ def test_published_vehicles_and_other_roads_are_offered(visit):
     tab = visit()
     seen = {settle(tab)}
     for name in ("car, short hump", "motorcycle fork, short hump", "empty truck, road hump"):
-        choose(tab, "Start from", name)
+        choose(tab, "Vehicle", name)
         seen.add(settle(tab))
         assert "as published by" in tab.locator(f"{BOX} .se-key").first.inner_text()
     for name in ("kerb", "pothole", "two bumps", "washboard"):
@@ -570,6 +570,7 @@ def test_the_same_is_alive_in_jupyterlab_by_mouse(browser, tmp_path):
         run_all(tab, address, "own.ipynb", f"{BOX}.se-live")
         assert not tab.locator(f"{BOX} img").is_visible()
         put(tab, "m", "2")
+        in_sight(tab, slider(tab, "v"))
         box = slider(tab, "v").bounding_box()
         tab.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
         tab.mouse.down()

@@ -137,7 +137,7 @@ export function renderOwn(model, el) {
   );
   const vehicle = choiceIn(
     tools,
-    "Start from",
+    "Vehicle",
     facts.vehicles.map(({ name }, i) => [i, name]),
   );
   vehicle.addEventListener("change", () => set(startFrom(Number(vehicle.value), facts, now().units)));

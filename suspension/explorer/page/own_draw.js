@@ -129,7 +129,7 @@ export function roadView({ shape, pieces, unit, isBump, state: { robot } }) {
   const reach = Math.max(high, -low) || unit.sag;
   return {
     x: [from - margin, to + margin],
-    y: [1.4 * Math.min(low, -0.35 * reach), 1.8 * Math.max(high, 0.35 * reach)],
+    y: [1.4 * Math.min(low, -0.3 * reach), 2.1 * Math.max(high, 0.35 * reach)],
     begin: heightAt(pieces, from),
   };
 }
@@ -165,15 +165,17 @@ export function drawRoad(p, scene, view, pen) {
 }
 
 /** The robot on the road, where the wheel that matters lifts, or presses least. */
-function drawRobot(p, { vehicle, pieces, track, lost }, { px, py }, X, wheel) {
+function drawRobot(p, { vehicle, pieces, track, lost }, { px, py, top }, X, wheel) {
   const n = Math.max(
       0,
       track.ends.findIndex((end) => end >= X),
     ),
     [Y, , theta] = track.states[n],
     wheels = vehicle.arms.map((arm) => ({ x: px(X + arm), road: py(heightAt(pieces, X + arm)) })),
-    // As far above the ground at rest as there is room, and moved by what the body moves.
-    body = vehicle.arms.map((arm) => py(Y + arm * theta) - BODY);
+    // So far above the ground at rest, and moved by what the body moves; but not out of sight.
+    moved = vehicle.arms.map((arm) => py(Y + arm * theta) - BODY),
+    back = Math.max(0, top + 8 - Math.min(...moved)),
+    body = moved.map((y) => y + back);
   wheels.forEach(({ x, road }, i) => {
     p.stroke(COLOURS[i], 2.5);
     p.line(x, road - 5, x, body[i]);
