@@ -23,6 +23,7 @@ from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
 from suspension.explorer.game import Game, game_script, game_style
+from suspension.explorer.own import Own, own_script, own_style
 from suspension.explorer.predict import Prediction
 from suspension.explorer.settings import (
     CLOSE,
@@ -54,6 +55,7 @@ __all__ = [
     "Explorer",
     "ExplorerBox",
     "Game",
+    "Own",
     "Prediction",
     "Workshop",
     "chain_script",
@@ -61,6 +63,8 @@ __all__ = [
     "explore",
     "game_script",
     "game_style",
+    "own_script",
+    "own_style",
     "page_script",
     "page_style",
     "prediction_script",
