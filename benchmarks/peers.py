@@ -131,6 +131,34 @@ def adaptive(method, rtol=1e-8):
     return make
 
 
+def on_a_ground_that_pushes(robot, bump, v, distance, rtol=1e-6):
+    """Largest vertical acceleration, m/s^2: the footnote as a force law, by `solve_ivp`."""
+    arms, time = robot.arms, distance / v
+    k, c = np.array([robot.k1, robot.k2]), np.array([robot.c1, robot.c2])
+
+    def forces(t, w):
+        H, dHdx = bump(v * t + arms)
+        p, rate = H - w[0] - arms * w[2], v * dHdx - w[1] - arms * w[3]
+        return np.where(p >= 0, np.maximum(0, k * p + c * rate), 0)
+
+    def motion(t, w):
+        N = forces(t, w)
+        return [w[1], N.sum() / robot.m - robot.g, w[3], arms @ N / robot.Izz]
+
+    T = np.linspace(0, time, 2501)
+    W = integrate.solve_ivp(
+        motion,
+        (0, time),
+        robot.equilibrium,
+        t_eval=T,
+        rtol=rtol,
+        atol=rtol * 1e-2,
+        max_step=bump.sigma / v,
+    ).y
+    total = np.array([forces(t, w).sum() for t, w in zip(T, W.T)])
+    return np.abs(total / robot.m - robot.g).max()
+
+
 def tsit5(rtol=1e-8):
     """`diffrax.diffeqsolve` with Tsit5, compiled."""
 

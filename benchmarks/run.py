@@ -194,6 +194,46 @@ def work_d(robot, bump, peers):
     return [{**row, "seconds": best.get(row["name"])} for row in rows]
 
 
+def work_e(robot, bump, peers):
+    """The largest accelerations of 5,184 runs with flights: s a run, and how far off they are."""
+    from dataclasses import replace
+
+    from suspension import fly
+    from suspension.sweep import drive
+
+    speeds, distance = np.array([0.25, 1.2, 5, 10]), 1.25
+    ks, cs = np.geomspace(100, 3000, 36), np.geomspace(0.2, 12, 36)
+    robots = np.array([[[replace(robot, k1=k, k2=k, c1=c, c2=c)] for c in cs] for k in ks])
+    some = [(i, j, (i + j) % 4) for i in range(2, 36, 7) for j in range(3, 36, 7)]
+    cases = [(robots[i, j, 0], speeds[n]) for i, j, n in some]
+
+    def flown(one, v):
+        flight = fly(one, bump, v=v, tfinal=distance / v)
+        return np.abs(flight.N.sum(axis=0) / one.m - one.g).max()
+
+    def solved(one, v):
+        return peers.on_a_ground_that_pushes(one, bump, v, distance)
+
+    runs = {
+        "drive": lambda: drive(robots, bump, speeds).acceleration,
+        "fly, one by one": lambda: np.array([flown(*case) for case in cases]),
+        "solve_ivp RK45, one by one": lambda: np.array([solved(*case) for case in cases]),
+    }
+    found = {name: run() for name, run in runs.items()}
+    count = {name: values.size for name, values in found.items()}
+    found["drive"] = found["drive"][tuple(np.transpose(some))]
+    best = clock(runs, rounds=3)[1]
+    truth = found["fly, one by one"]
+    return [
+        {
+            "name": name,
+            "seconds": best[name] / count[name],
+            "error": float(np.abs(found[name] / truth - 1).max()),
+        }
+        for name in runs
+    ]
+
+
 def parts(robot, bump):
     """Where the time of work (a) goes, in ns a step."""
     from scipy.linalg.lapack import dtbtrs
@@ -256,7 +296,7 @@ def measure():
     from suspension.course import Hgauss, the_robot
 
     results, robot = {"machine": machine()}, the_robot()
-    for name, work in (("a", work_a), ("b", work_b), ("c", work_c), ("d", work_d)):
+    for name, work in (("a", work_a), ("b", work_b), ("c", work_c), ("d", work_d), ("e", work_e)):
         print(work.__doc__, flush=True)
         results[name] = work(robot, Hgauss, peers)
     return results | {"parts": parts(robot, Hgauss)}

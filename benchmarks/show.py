@@ -7,12 +7,12 @@ import matplotlib.pyplot as plt
 
 from suspension.figures.layout import narrow
 from suspension.report import table
-from suspension.report.words import number, quantity
+from suspension.report.words import number, percent, quantity
 
 ROOT = Path(__file__).parents[1]
 TABLES = Path(__file__).with_name("results.md")
 FIGURES = ROOT / "book/figures"
-OURS = {"simulate", "closed form", "sweep"}
+OURS = {"simulate", "closed form", "sweep", "drive"}
 
 
 def write(results):
@@ -23,6 +23,7 @@ def write(results):
         "work-b": _work_b(results["b"]),
         "work-c": _work_c(results["c"]),
         "work-d": _work_d(results["d"]),
+        "work-e": _work_e(results["e"]),
         "parts": _parts(results),
         "book": _book(results.get("book")),
     }
@@ -116,6 +117,19 @@ def _work_d(rows):
                 "error (N)": _error(row["error"]),
             }
             for row in sorted(rows, key=lambda row: row["seconds"] or float("inf"))
+        ]
+    )
+
+
+def _work_e(rows):
+    return table(
+        [
+            {
+                "what computes it": _name(row["name"]),
+                "per run": _time(row["seconds"]),
+                "largest deviation": percent(row["error"]) if row["error"] else "reference",
+            }
+            for row in rows
         ]
     )
 

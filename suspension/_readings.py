@@ -113,7 +113,10 @@ def _default_file():
 
 def shipped(name):
     """The path of a file that comes with the book and does not change: ``data/name``."""
-    return next(folder / name for folder in SHIPPED if (folder / name).is_file())
+    for folder in SHIPPED:
+        if (folder / name).is_file():
+            return folder / name
+    raise ValueError(f"name must be a file in {' or '.join(map(str, SHIPPED))}, got {name!r}")
 
 
 def are_synthetic(displacement, force):

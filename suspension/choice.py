@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from suspension import _checks
-from suspension.contact import Regimes, regimes
+from suspension.contact import Regimes, is_lost, regimes
 from suspension.least_force import distance_over, margin
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
@@ -36,7 +36,7 @@ MAX_MARGINS = 10**4  # exact ones: some ten seconds
 MAX_RUNS = 10**5  # all at once: as long
 MAX_CANDIDATES = 5000  # for the best compromises: a second or two, if none beats another
 STARTS = 2  # points of the grid from which the search begins
-EDGE = 1e-6  # N; a margin that misses what was asked by less than this has reached it
+EDGE = 1e-7  # N; the search, which may miss its constraint by less, is asked for so much more
 
 
 class Demands(NamedTuple):
@@ -252,7 +252,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     k, c : array_like, shapes (n,) and (m,)
         Stiffness, N/m, and damping, N s/m, > 0, of the grid, each in order.
     reserve : float
-        What the margin must be at every speed, N.
+        What the margin must be at every speed, N, >= 0.
     distance : float, optional
         How far each run goes, m: 1.25 m if the whole bump lies within
         (`suspension.least_force.distance_over`).
@@ -276,7 +276,7 @@ def cheapest(robot, bump, v, k, c, reserve=0.0, *, distance=None):
     (277.1, 1.574, 1.061)
     """
     start = _own(robot, bump)
-    search = _Search(robot, bump, v, k, c, _checks.number("reserve", reserve), distance)
+    search = _Search(robot, bump, v, k, c, _checks.nonnegative("reserve", reserve), distance)
     if search.keeps(start):
         return search.choice(start)
     return search.best(lambda x: np.sum((x - start) ** 2), lambda x: 2 * (x - start))
@@ -333,8 +333,9 @@ class _Search:
         return np.array([self.margin(changed, speed) for speed in self.v]) - self.reserve
 
     def keeps(self, x):
-        changed = fitted_with(self.robot, *np.exp(x))
-        return all(self.margin(changed, speed) >= self.reserve for speed in self.v)
+        changed, reserve = fitted_with(self.robot, *np.exp(x)), self.reserve
+        margins = (self.margin(changed, speed) for speed in self.v)
+        return all(not is_lost(least) and least >= reserve for least in margins)
 
     def choice(self, x):
         """The suspension at x; the robot itself where nothing is changed."""
@@ -355,12 +356,12 @@ class _Search:
                 jac=slope,
                 method="SLSQP",
                 bounds=np.log([self.k[[0, -1]], self.c[[0, -1]]]),
-                constraints={"type": "ineq", "fun": self.spare},
+                constraints={"type": "ineq", "fun": lambda x: self.spare(x) - EDGE},
                 options={"ftol": 1e-12},
             ).x
             for first in starts
         ]
-        reached = [x for x in found if self.spare(x).min() >= -EDGE]
+        reached = [x for x in found if self.keeps(x)]
         return self.choice(min([*reached, starts[0]], key=goal))
 
 

@@ -331,6 +331,14 @@ def surviving(critical):
     Returns
     -------
     speeds : list of float
+
+    Raises
+    ------
+    ValueError
+        If there is no law, or a speed is not positive.
     """
-    first, *others = (_checks.positives("critical", speeds, (None,)) for speeds in critical)
+    laws = [_checks.positives("critical", speeds, (None,)) for speeds in critical]
+    if not laws:
+        raise ValueError("critical must hold the critical speeds of one law or more, got none")
+    first, *others = laws
     return [float(v) for v in first if all((np.abs(np.log(w / v)) < SAME).any() for w in others)]

@@ -20,9 +20,8 @@ WAVE = 32  # steps for the shortest wave of the roads
 SWING = 12  # steps for each swing of the stiffest spring
 DECAY = 1.0  # steps for each time constant of the strongest damper
 MAX_STEPS = 10**8  # of all rides together, a step of any number of rides counting 1000 more
-MAX_PLACES = (
-    10**7
-)  # of all roads together, a wheelbase on a road each, a step long: half a gigabyte
+# Of all roads together, a wheelbase on a road each, a step long: half a gigabyte.
+MAX_PLACES = 10**7
 
 
 class Rides(NamedTuple):
@@ -133,20 +132,20 @@ def _run(cases, roads, waves, length, pulls):
         i = place % (2 * steps)
         return motion.rates(y, u, H[i][:, which], rise[i][:, which])
 
-    squares, jerks, off, flights = np.zeros((2, cases.v.size)), 0.0, 0, 0
+    forces, bounces, off, flights = np.zeros((2, cases.v.size)), 0.0, 0, 0
     pressing = None
     for j in range(2 * steps):
         a1, _, _, _, N = rates(y, u, 2 * j)
         before, pressing = pressing, N > 0
         if j >= steps:
-            squares += (N - motion.loads) ** 2
-            jerks += ((N[0] + N[1]) / motion.m - motion.g) ** 2
+            forces += (N - motion.loads) ** 2
+            bounces += ((N[0] + N[1]) / motion.m - motion.g) ** 2
             off += ~pressing
             flights += before & ~pressing
         y, u = step(lambda y, u, place: rates(y, u, place)[0], y, u, a1, 2 * j)
     if not np.isfinite(y).all():
         raise ValueError("roads must be so smooth that a ride stays finite")
-    return np.sqrt(squares / steps), np.sqrt(jerks / steps), off / steps, flights
+    return np.sqrt(forces / steps), np.sqrt(bounces / steps), off / steps, flights
 
 
 def _ground(roads, motion, length, steps):

@@ -31,6 +31,7 @@ __all__ = [
 ]
 
 WIDEST = 20.0  # stiffnesses further from the estimate than this factor are left out
+TAIL = 1e-9  # so little is left out at each end of a distribution
 EXACT = 1e-9  # relative errors below this are roundoff: the stiffness is taken as known
 
 
@@ -168,7 +169,7 @@ def loss_probability(stiffness, robot, bump, v, *, distance=None):
 
     if stiffness.error <= EXACT * stiffness.value:
         return float(is_lost(margin_at(stiffness.value)))
-    low, high = _bounds(stiffness, k.ppf(1e-9), k.ppf(1 - 1e-9))
+    low, high = _bounds(stiffness, k.ppf(TAIL), k.ppf(1 - TAIL))
     nominal = replace(robot, k1=stiffness.value, k2=stiffness.value)
     flips = critical_stiffness(nominal, bump, v, low, high, distance=distance)
     found = regimes_between(margin_at, [low, *flips, high], unit="N/m")

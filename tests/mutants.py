@@ -32,9 +32,9 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = "robot road schemes forces simulation exact least_force critical contact flight".split()
-MODULES += "spring_law motion sweep choice uncertainty".split()
+MODULES += "spring_law motion extremes sweep rides choice uncertainty small_angle measured".split()
 # Files of tests of those that have others than their own.
-TESTS = {"sweep": ["sweep", "drive"], "motion": ["motion", "drive", "rides"]}
+TESTS = {"sweep": ["sweep", "drive"], "extremes": ["drive"], "motion": ["motion", "drive", "rides"]}
 NO_TESTS = 5  # what pytest answers where it finds none
 SLOWEST = 5  # times as long as without a change, then a mutant is stopped, and killed
 OPERATORS = {

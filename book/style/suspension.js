@@ -47,6 +47,22 @@ addEventListener("click", (event) => {
   if (button?.dataset.click === "toggleFullScreen()") toggleFullScreen();
 });
 
+// An address that leads to a fold, or into one, opens it: from the contents or from another page.
+(() => {
+  const unfold = () => {
+    const target = document.getElementById(location.hash.slice(1)),
+      closed = [];
+    for (let at = target; at; at = at.parentElement) if (at.matches("details:not([open])")) closed.push(at);
+    for (const fold of closed) fold.open = true;
+    if (closed.length) target.scrollIntoView();
+  };
+  addEventListener("DOMContentLoaded", unfold);
+  addEventListener("hashchange", unfold);
+  addEventListener("click", ({ target }) => {
+    if (target.closest?.('a[href^="#"]')) setTimeout(unfold); // the same address once more
+  });
+})();
+
 // The choices of a prediction: the one that is tapped stays marked, and opens the answer below.
 addEventListener("DOMContentLoaded", () => {
   for (const list of document.querySelectorAll("article ul.choices")) {

@@ -22,6 +22,7 @@ from suspension.explorer.chain import Chain, chain_script, chain_style
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
+from suspension.explorer.game import Game, game_script, game_style
 from suspension.explorer.own import Own, own_script, own_style
 from suspension.explorer.predict import Prediction
 from suspension.explorer.settings import (
@@ -53,12 +54,15 @@ __all__ = [
     "Chain",
     "Explorer",
     "ExplorerBox",
+    "Game",
     "Own",
     "Prediction",
     "Workshop",
     "chain_script",
     "chain_style",
     "explore",
+    "game_script",
+    "game_style",
     "own_script",
     "own_style",
     "page_script",
@@ -446,7 +450,10 @@ def explore(
     family = Family(robot, road)
     if _checks.one_of("compact", compact, tuple(PANELS)) == "chart":
         check(family)
-    schemes = [_checks.instance("schemes", known, Scheme) for known in schemes]
+    schemes = [
+        _checks.instance("schemes", known, Scheme)
+        for known in _sequence("schemes", schemes, "schemes")
+    ]
     if isinstance(scheme, Scheme) and scheme not in schemes:
         schemes.append(scheme)
     names = [known.name for known in schemes]
@@ -482,7 +489,9 @@ def explore(
         scheme_index=names.index(_checks.one_of("scheme", chosen, names)),
         motion=_checks.one_of("motion", motion, MOTIONS),
         view=_checks.one_of("view", view, VIEWS),
-        presets=[_preset(preset, names, ranges) for preset in presets],
+        presets=[
+            _preset(preset, names, ranges) for preset in _sequence("presets", presets, "pairs")
+        ],
         compact=compact,
         wide=bool(wide),
         **settings,
@@ -495,9 +504,14 @@ def explore(
 
 def _speeds(name, values):
     """Speeds as floats; each must be positive."""
+    return tuple(float(_checks.positive(name, v)) for v in _sequence(name, values, "speeds in m/s"))
+
+
+def _sequence(name, values, what):
+    """What can be gone through, and is no text."""
     if isinstance(values, str) or not np.iterable(values):
-        raise ValueError(f"{name} must be a sequence of speeds in m/s, got {values!r}")
-    return tuple(float(_checks.positive(name, v)) for v in values)
+        raise ValueError(f"{name} must be a sequence of {what}, got {values!r}")
+    return values
 
 
 def _preset(preset, names, ranges):

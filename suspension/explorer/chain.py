@@ -26,7 +26,7 @@ from suspension.figures.speeds import plot_branches
 from suspension.least_force import distance_over
 from suspension.problem import DELTA_MAX
 from suspension.report.words import quantity
-from suspension.uncertainty import EXACT, WIDEST
+from suspension.uncertainty import EXACT, TAIL, WIDEST
 
 __all__ = ["Chain", "chain_script", "chain_style"]
 
@@ -37,7 +37,6 @@ REACH = 3.0  # the table of critical speeds goes from k / REACH to k REACH
 GOAL = 5e-5  # relative error that the table is refined for
 ROUNDS = 14  # of refining: each halves what is not good enough
 PARTS = (0.25, 0.75)  # of the way between two nodes, where the error is measured
-TAIL = 1e-9  # as in `loss_probability`
 
 
 class Chain(Instrument):
@@ -61,13 +60,17 @@ class Chain(Instrument):
         Largest displacement, m.
     distance : float, optional
         How far each run goes, m, as in `suspension.critical_speeds`.
+
+    Attributes
+    ----------
     readings : list of [float, float]
         The readings as they stand: displacement over the largest, force in N.
 
     Raises
     ------
     ValueError
-        If the readings leave no degree of freedom, or their slope at zero is not positive.
+        If the readings leave no degree of freedom, their slope at zero is not positive, or an
+        argument is out of its range.
     """
 
     _esm = bundle(PAGE, "chain_widget")
@@ -94,7 +97,7 @@ class Chain(Instrument):
             raise ValueError(
                 f"data must have four readings or more and a slope at zero > 0, got {fit}"
             )
-        asked = [_checks.positive("asked", v) for v in asked]
+        asked = _checks.positives("asked", asked, (None,)).tolist()
         distance = distance_over(robot, bump, distance)
         self.fit, self._data = fit, data
         ends = fit.stiffness / REACH, fit.stiffness * REACH
@@ -118,6 +121,10 @@ class Chain(Instrument):
             "asked": [_verdicts(robot, bump, v, ends, distance) for v in asked],
         }
         super().__init__(facts=facts, readings=start)
+
+    @traitlets.validate("readings")
+    def _validate(self, proposal):
+        return _checks.array("readings", proposal["value"], (None, 2)).tolist()
 
     @property
     def data(self):

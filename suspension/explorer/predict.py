@@ -35,6 +35,11 @@ class Prediction(Instrument):
         Ends of the axes, > 0.
     x_name, y_name : str
         What they count; `x_name` ends in its symbol.
+    **facts
+        What `answer` hands to the page.
+
+    Attributes
+    ----------
     strokes : list
         What was drawn: for each stroke a list of [column, decimal logarithm of the height].
     """
@@ -48,6 +53,9 @@ class Prediction(Instrument):
     def __init__(self, name, x, y, x_name, y_name, **facts):
         self.name = name
         x, y = (list(_checks.pair(axis, ends)) for axis, ends in (("x", x), ("y", y)))
+        for axis, text in (("x_name", x_name), ("y_name", y_name)):
+            if not _checks.instance(axis, text, str).strip():
+                raise ValueError(f"{axis} must say what the axis counts, got {text!r}")
         own = {"columns": COLUMNS, "x": x, "y": y, "names": [x_name, y_name]}
         super().__init__(facts=own | {"symbol": x_name.split()[-1]} | facts)
 

@@ -2,6 +2,7 @@
 
 import io
 import re
+from html import escape
 from urllib.parse import quote
 
 import matplotlib.pyplot as plt
@@ -66,7 +67,7 @@ def still(explorer, drawn):
 def still_image(drawn, text):
     """An SVG as an HTML image that stands in a page until its scripts run."""
     source = f"data:image/svg+xml,{quote(drawn, safe=' /:;,=()')}"
-    return f'<img class="suspension-explorer-still" alt="{text}" src="{source}">'
+    return f'<img class="suspension-explorer-still" alt="{escape(text)}" src="{source}">'
 
 
 def picture(drawn, to="drive it"):

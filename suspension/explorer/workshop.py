@@ -119,6 +119,11 @@ class Workshop(Instrument):
             dt=dt,
         )
 
+    @traitlets.validate("v", "dt")
+    def _validate(self, proposal):
+        name = proposal["trait"].name
+        return _within(name, proposal["value"], {"v": SPEEDS, "dt": STEPS}[name])
+
     @property
     def alt(self):
         """What the still picture shows."""

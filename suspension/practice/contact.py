@@ -4,7 +4,17 @@ import numpy as np
 
 from suspension.forces import first_loss as _first_loss
 from suspension.practice.crank_nicolson import some_robot
-from suspension.practice.feedback import Wrong, check, compare, fits, name_mistake, near, several
+from suspension.practice.feedback import (
+    Wrong,
+    check,
+    compare,
+    fits,
+    name_mistake,
+    near,
+    off,
+    several,
+    told,
+)
 from suspension.road import GaussianBump
 
 __all__ = [
@@ -41,9 +51,9 @@ def check_road_under_wheels(road_under_wheels, rng):
 
     def fails(answer, robot, road, v, t):
         wanted = _under(robot, road, v, t)
-        i = int(np.argmax(~np.isclose(answer, wanted)))
+        i = int(off(answer, wanted).argmax())
         return (
-            f"{names[i]} is {answer[i]:.5g} and should be {wanted[i]:.5g}. The rear wheel is "
+            f"{names[i]} is {told(answer[i], wanted[i])}. The rear wheel is "
             "at vt − L1, the front one at vt + L2, and h' is v times the slope."
         )
 

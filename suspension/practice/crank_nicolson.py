@@ -3,7 +3,16 @@
 import numpy as np
 
 from suspension.practice import _loops
-from suspension.practice.feedback import Wrong, check, compare, name_mistake, near
+from suspension.practice.feedback import (
+    Wrong,
+    check,
+    compare,
+    must_have_shape,
+    name_mistake,
+    near,
+    off,
+    told,
+)
 from suspension.robot import Robot
 
 __all__ = ["check_cn_step", "check_crank_nicolson", "check_state_matrix"]
@@ -56,11 +65,12 @@ def check_state_matrix(state_matrix, rng):
     """Whether ``state_matrix(robot)`` is A of ``w' = A w + F`` for any robot."""
 
     def fails(A, r):
-        i, j = np.argwhere(~np.isclose(A, _matrix(r), rtol=1e-6))[0]
+        wanted = _matrix(r)
+        i, j = np.argwhere(off(A, wanted))[0]
         rate = [r"Y'", "the acceleration Y''", "θ'", "the angular acceleration θ''"][i]
         return (
             f"Row {i + 1}, column {j + 1}, which says what {STATE[j]} does to {rate}, is "
-            f"{A[i, j]:.4g}, and should be {_matrix(r)[i, j]:.4g} for one of the robots tried."
+            f"{told(A[i, j], wanted[i, j])} for one of the robots tried."
         )
 
     mistakes = {
@@ -245,11 +255,7 @@ def check_crank_nicolson(crank_nicolson, rng):
         name_mistake(answers, cases, mistakes)
     for W, T, wanted_W, wanted_T, dt in runs:
         _loops.check_times(crank_nicolson.name, T, wanted_T, dt)
-        if W.shape != wanted_W.shape:
-            raise Wrong(
-                f"`crank_nicolson` returns W of shape {W.shape}; needed is {wanted_W.shape}, "
-                f"{_loops.SHAPE}."
-            )
+        must_have_shape(W, wanted_W.shape, crank_nicolson.name, _loops.SHAPE)
         if not near(W, wanted_W):
             j = int(np.argmax(np.abs(W - wanted_W).max(axis=0) > 1e-9))
             raise Wrong(

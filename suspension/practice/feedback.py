@@ -55,7 +55,7 @@ def check(signature, praise):
 
     def decorate(function):
         @functools.wraps(function)
-        def asked(answer):
+        def asked(answer, /):
             rng = np.random.default_rng(SEED)
             try:
                 with np.errstate(all="ignore"):
@@ -64,8 +64,9 @@ def check(signature, praise):
                 return Feedback(str(wrong), False)
             return Feedback(f"Right: {praise}", True)
 
+        first = next(iter(inspect.signature(function).parameters.values()))
         asked.__signature__ = inspect.Signature(
-            list(inspect.signature(function).parameters.values())[:1]
+            [first.replace(kind=inspect.Parameter.POSITIONAL_ONLY)]
         )
         return asked
 
@@ -189,7 +190,12 @@ def near(x, y, close=CLOSE):
     x, y = np.asarray(x), np.asarray(y)
     if x.shape != y.shape or not (np.isfinite(x).all() and np.isfinite(y).all()):
         return False
-    return bool(np.abs(x - y).max(initial=0) <= close * np.abs(y).max(initial=0))
+    return not off(x, y, close).any()
+
+
+def off(x, y, close=CLOSE):
+    """Which elements of two arrays differ by more than roundoff of the largest element."""
+    return np.abs(x - y) > close * np.abs(y).max(initial=0)
 
 
 def fits(answers, cases, formula, close=CLOSE):
@@ -245,6 +251,15 @@ def compare(yours, cases, right, mistakes, means, fails, close=CLOSE):
         must_have_shape(answer, wanted.shape, yours.name, means)
         if not near(answer, wanted, close):
             raise Wrong(fails(answer, *case))
+
+
+def told(found, wanted):
+    """``x, and should be y``, in as many digits as tell them apart."""
+    for digits in range(4, 17):
+        texts = [f"{value:.{digits}g}" for value in (found, wanted)]
+        if texts[0] != texts[1]:
+            break
+    return f"{texts[0]}, and should be {texts[1]}"
 
 
 def listed(words):

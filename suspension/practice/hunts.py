@@ -1,6 +1,7 @@
 """Bug hunts: integrators with one wrong line each, to be found by the order that they show."""
 
 import inspect
+import math
 import textwrap
 
 import numpy as np
@@ -30,11 +31,11 @@ def slopes(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k1, t + dt / 2)
-        k4 = g(w + dt * k3, t + dt)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g1, t + dt / 2)
+        g4 = g(w + dt * g3, t + dt)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -44,11 +45,11 @@ def clock(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k2, t + dt / 2)
-        k4 = g(w + dt * k3, t)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g2, t + dt / 2)
+        g4 = g(w + dt * g3, t)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -58,11 +59,11 @@ def calendar(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k2, t + dt / 2)
-        k4 = g(w + dt * k3, t + dt)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g2, t + dt / 2)
+        g4 = g(w + dt * g3, t + dt)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -72,12 +73,12 @@ def embedded(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + 3 / 4 * dt * k2, t + 3 / 4 * dt)
-        new = w + dt / 9 * (2 * k1 + 3 * k2 + 4 * k3)
-        k4 = g(new, t + dt)
-        error = dt / 72 * (-5 * k1 + 6 * k2 + 8 * k3 - 9 * k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + 3 / 4 * dt * g2, t + 3 / 4 * dt)
+        new = w + dt / 9 * (2 * g1 + 3 * g2 + 4 * g3)
+        g4 = g(new, t + dt)
+        error = dt / 72 * (-5 * g1 + 6 * g2 + 8 * g3 - 9 * g4)
         W[:, j + 1] = new - error
     return W, T
 
@@ -85,8 +86,8 @@ def embedded(g, w0, dt, tfinal):
 # The integrator, the order it should have, and what its wrong line has in it.
 _HUNTS = {
     "trapezoid": (trapezoid, 2, "F(T[j]) + F(T[j])"),
-    "slopes": (slopes, 4, "k3 = g(w + dt / 2 * k1"),
-    "clock": (clock, 4, "k4 = g(w + dt * k3, t)"),
+    "slopes": (slopes, 4, "g3 = g(w + dt / 2 * g1"),
+    "clock": (clock, 4, "g4 = g(w + dt * g3, t)"),
     "calendar": (calendar, 4, "np.linspace"),
     "embedded": (embedded, 3, "new - error"),
 }
@@ -200,14 +201,14 @@ def _judge(name, order, line, repaired):
         if each is Ellipsis or each is None:
             raise fill(what)
     ratio = 2**shown
-    if isinstance(order, bool) or not isinstance(order, int | float | np.number):
+    real = isinstance(order, int | float | np.integer | np.floating)
+    if isinstance(order, bool) or not real or not abs(order) < math.inf:
         raise Wrong("The order is a number, such as 2.")
     if round(order) != shown:
         own = " That is the order it should have; measure it." if round(order) == full else ""
         raise Wrong(
             f"Halve the step: the error becomes {ratio} times smaller, and 2^p = {ratio} is "
-            "not p = "
-            f"{order:g}.{own}"
+            f"not p = {_short(order)}.{own}"
         )
     if (
         isinstance(line, bool)
@@ -235,9 +236,13 @@ def _judge(name, order, line, repaired):
         )
     raise Wrong(
         f"{begin}Line {line} is the wrong one, but with yours it is of order "
-        f"{max(round(found), 0)}, and "
-        f"{full} is possible."
+        f"{max(round(found), 0)}, and {full} is possible."
     )
+
+
+def _short(order):
+    """A number that may have very many digits."""
+    return f"{order:g}" if abs(order) < 1e15 else "such a large number"
 
 
 def _slope_of(name, source, begin, line):
@@ -247,10 +252,11 @@ def _slope_of(name, source, begin, line):
         exec(compile(source, "repaired", "exec"), space)
     except SyntaxError as error:
         raise Wrong(f"{begin}Your line {line} is not Python: {error.msg}.") from None
-    signature = (
-        "trapezoid(A, F, w0, dt, tfinal)" if name == "trapezoid" else (f"{name}(g, w0, dt, tfinal)")
-    )
-    run = Yours(space[name], signature)
+    except Exception as error:
+        raise Wrong(f"{begin}With your line {line} the definition fails: {error}.") from None
+    if name not in space:
+        raise Wrong(f"{begin}With your line {line} there is no `{name}` any more.")
+    run = Yours(space[name], name + str(inspect.signature(_hunt(name)[0])))
     try:
         errors = _errors(run, name, 1 / STEPS)
     except (ValueError, TypeError, IndexError) as error:

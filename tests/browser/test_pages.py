@@ -80,6 +80,25 @@ PUNCTUATION = """() => [...document.querySelectorAll("article .together")].flatM
 })"""
 
 
+# Sizes and weights of headings by rank; the most characters in a line of a plain paragraph (the
+# mean of its lines); sizes of code.
+LOOK = """() => {
+  const all = (selector) => [...document.querySelectorAll(`article ${selector}`)]
+        .filter((one) => one.offsetParent),
+    px = (one, name) => parseFloat(getComputedStyle(one)[name]),
+    plain = all("section > p").filter((one) => !one.querySelector(".katex, code")),
+    long = (one) => {
+      const lines = Math.round(one.getBoundingClientRect().height / px(one, "lineHeight"));
+      return lines > 2 ? (one.textContent.length / lines) : 0;
+    };
+  return {
+    headings: ["h1", "h2", "h3", "h4"].flatMap((name) => all(name).slice(0, 1))
+      .map((one) => [px(one, "fontSize"), px(one, "fontWeight")]),
+    longest: Math.max(0, ...plain.map(long)),
+    code: all("div.highlight pre").map((one) => px(one, "fontSize")),
+  };
+}"""
+
 # Chromium breaks a line of code after a bracket, Firefox only where it is told to.
 UNBROKEN = """[...document.querySelectorAll("article p > code > .pre")].filter((code) =>
     getComputedStyle(code).overflowWrap === "normal" ||
@@ -154,6 +173,15 @@ def test_a_page_is_light_and_calm_and_keeps_the_policy(visit, strict_site, book)
 def test_a_page_complains_of_nothing_and_asks_nobody_else(visit, strict_site):
     assert not visit.complaints
     assert not visit.asked_elsewhere(strict_site)
+
+
+def test_text_is_easy_on_the_eyes(visit):
+    """Headings rank as they look, a line of text has 75 characters, and code is no fine print."""
+    found = visit.tab.evaluate(LOOK)
+    ranks = [size * weight for size, weight in found["headings"]]
+    assert ranks == sorted(ranks, reverse=True) and len(set(ranks)) == len(ranks)
+    assert found["longest"] <= 76
+    assert not found["code"] or min(found["code"]) >= 14
 
 
 def test_every_formula_finds_its_fonts(visit):
@@ -258,6 +286,61 @@ def test_the_search_survives_any_word(browser, strict_site):
             visit.tab.get_by_text(SEARCHED).first.wait_for()
             assert visit.tab.locator("#search-results li a").count() or words != "Butcher"
         assert not visit.complaints
+
+
+WANTED = {  # what people type, and the page that a reader then wants
+    "transmissibility": "notebooks/09-filter",
+    "MATLAB": "book/data",
+    "confidence": "notebooks/01-regression",
+    "explorer": "notebooks/12-drive",
+    "stiff": "notebooks/03-runge-kutta",
+    "resonance": "notebooks/09-filter",
+    "flight": "notebooks/07-flight",
+    "A-stable": "notebooks/02-crank-nicolson",
+    "Butcher": "notebooks/03-runge-kutta",
+    "order": "notebooks/20-accuracy",
+    "damping": "notebooks/02-crank-nicolson",
+    "regression": "notebooks/01-regression",
+    "outliers": "notebooks/13-laboratory",
+    "eigenvalues": "notebooks/02-crank-nicolson",
+    "rough road": "notebooks/11-rough-road",
+    "car": "notebooks/04-one-chart",
+    "energy": "notebooks/07-flight",
+    "hysteresis": "notebooks/01-regression",
+    "download": "book/index",
+    "exercises": "book/workbook",
+    "critical speed": "notebooks/05-how-we-know",
+    "notation": "book/model",
+    "Crank-Nicolson": "notebooks/02-crank-nicolson",
+    "choosing": "notebooks/10-choosing",
+}
+
+
+def test_the_search_puts_the_page_that_is_wanted_among_the_first_three(browser, strict_site):
+    with opened(browser, f"{strict_site}search.html", 1280) as visit:
+        first = {}
+        for words in WANTED:
+            visit.tab.goto(f"{strict_site}search.html?q={words}")
+            visit.tab.get_by_text(SEARCHED).first.wait_for()
+            links = visit.tab.locator("#search-results li a").evaluate_all(
+                "links => links.slice(0, 3).map((link) => new URL(link.href).pathname)"
+            )
+            first[words] = [link.lstrip("/").removesuffix(".html") for link in links]
+    assert not {words: pages for words, pages in first.items() if WANTED[words] not in pages}
+
+
+def test_what_the_contents_lead_to_unfolds(browser, strict_site):
+    with opened(browser, f"{strict_site}notebooks/02-crank-nicolson.html", 1366) as visit:
+        links = visit.tab.locator(".bd-toc a:visible")
+        folds = [link for link in links.all() if link.inner_text().startswith("Proof")]
+        assert folds
+        for link in folds:
+            fold = visit.tab.locator(link.get_attribute("href"))
+            for _ in range(2):  # the second time the address stays
+                assert fold.get_attribute("open") is None
+                link.click()
+                fold.locator("> :not(summary)").first.wait_for()
+                fold.evaluate("fold => { fold.open = false; }")
 
 
 @pytest.mark.parametrize("page", PAGES)

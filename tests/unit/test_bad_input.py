@@ -39,11 +39,12 @@ from suspension.animation import animate_robot
 from suspension.branches import branches
 from suspension.energy import energy, landings
 from suspension.explorer import Prediction, explore
+from suspension.explorer.workshop import Workshop
 from suspension.least_force import distance_over
 from suspension.practice import errors_of
 from suspension.rides import rides
 from suspension.road import RoadProfile, RoughRoad
-from suspension.small_angle import full_geometry
+from suspension.small_angle import full_geometry, margin_with
 from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
@@ -543,6 +544,17 @@ TABLE = [
         {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
     ),
     Row(
+        "margin_with",
+        margin_with,
+        {"robot": ROBOT, "bump": BUMP, "v": 10, "terms": ("places",), "distance": 1.25},
+        {
+            "v": [*NOT_POSITIVE, 1e-6],
+            "terms": [("heights", "sines"), "places", (1,)],
+            "distance": [*but(NOT_POSITIVE, None), 1e9],
+        },
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
+    ),
+    Row(
         "RoughRoad",
         RoughRoad,
         {"roughness": 1e-5, "length": 1.0, "shortest": 0.1, "seed": 1},
@@ -712,7 +724,7 @@ TABLE = [
             NO_CROSSING,
         )
         for function, more, bad in (
-            (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_A_NUMBER}),
+            (choice.cheapest, {"reserve": 0.1}, {"reserve": NOT_NONNEGATIVE}),
             (choice.farthest, {"name": "k"}, {"name": ["K", None, 1]}),
         )
     ),
@@ -1048,7 +1060,15 @@ TABLE = [
             "time": [*but(NOT_NONNEGATIVE, None), 1.1, 100],
             "view": [*NOT_A_NUMBER, "Forces", "all", ["robot"]],
             "compact": [None, "Chart", "yes", 2, ["chart"]],
-            "presets": [[3], ["slow"], [("slow", 3)], [("slow", {"v": np.nan})], [("a", {}, 1)]],
+            "presets": [
+                3,
+                "slow",
+                [3],
+                ["slow"],
+                [("slow", 3)],
+                [("slow", {"v": np.nan})],
+                [("a", {}, 1)],
+            ],
         },
         NO_DRIVE,
     ),
@@ -1059,7 +1079,16 @@ TABLE = [
         {
             axis: [*NEGATIVE, *ZERO, None, "ab", (1,), (1, 2, 3), (2, 1), (0, 1), (1, np.nan)]
             for axis in "xy"
-        },
+        }
+        | {"x_name": ["", " "], "y_name": [""]},
+        {"x_name": [None, 3], "y_name": [None]},
+    ),
+    Row(
+        "Workshop",
+        Workshop,
+        {"robot": ROBOT, "bump": BUMP, "v": 1.2, "dt": 0.02},
+        {"v": [*NOT_POSITIVE, 0.1, 11], "dt": [*NOT_POSITIVE, 0.3]},
+        {"robot": NOT_A_ROBOT, "bump": NOT_AN_OBJECT},
     ),
     Row(
         "Prediction.answer",

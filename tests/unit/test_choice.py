@@ -8,6 +8,7 @@ from scipy.optimize import OptimizeResult
 
 from suspension import choice as module
 from suspension.choice import candidate, cheapest, demands, efficient, farthest, fitted_with
+from suspension.contact import is_lost
 from suspension.flight import fly
 from suspension.least_force import margin
 from suspension.problem import DISTANCE
@@ -86,6 +87,7 @@ def test_the_cheapest_change_reaches_what_is_asked_and_no_smaller_one_does(reser
     choice = cheapest(ROBOT, BUMP, ASKED, K, C, reserve)
     margins = [margin(choice.robot, BUMP, v) for v in ASKED]
     np.testing.assert_allclose(min(margins), reserve, atol=1e-5)
+    assert min(margins) >= reserve and not is_lost(margins).any()
     np.testing.assert_allclose(choice.margin, min(margins), atol=1e-12)
     way = np.log([choice.robot.k1 / ROBOT.k1, choice.robot.c1 / ROBOT.c1])
     np.testing.assert_allclose(np.hypot(*way), choice.distance)
@@ -128,6 +130,7 @@ def test_nothing_beyond_the_farthest_keeps_contact(name):
     """Brute force: all of a fine grid, beside which the search starts on a coarse one."""
     most = farthest(ROBOT, BUMP, ASKED, K, C, name)
     np.testing.assert_allclose(most.margin, 0, atol=1e-6)
+    assert not is_lost(most.margin)
     k, c = np.geomspace(150, 1200, 53), np.geomspace(0.4, 4, 47)
     kept = demands(ROBOT, BUMP, ASKED, k, c).margin > 0
     beyond, own = (k, most.robot.k1) if name == "k" else (c[:, None], most.robot.c1)

@@ -44,8 +44,8 @@ def test_the_second_round_is_that_of_a_flight(robot, v):
     load = robot.C @ robot.equilibrium
     force = np.sqrt(((N - load[:, None]) ** 2).mean(axis=1))
     np.testing.assert_allclose(found.force, force, rtol=0.01)
-    jerks = (N.sum(axis=0) / robot.m - robot.g) ** 2
-    np.testing.assert_allclose(found.acceleration, np.sqrt(jerks.mean()), rtol=0.01)
+    squares = (N.sum(axis=0) / robot.m - robot.g) ** 2
+    np.testing.assert_allclose(found.acceleration, np.sqrt(squares.mean()), rtol=0.01)
     np.testing.assert_allclose(found.air, (N <= 0).mean(axis=1), atol=2e-3)
     lifts = [e for e in run.events if e.kind == "lift-off" and e.t > period]
     assert found.flights.sum() == len(lifts) > 0

@@ -88,7 +88,7 @@ function apart(heights, others) {
   return { half: Math.abs(over[Math.floor(over.length / 2)].by), worst: over.at(-1) };
 }
 
-const factor = (by) => show(Math.max(10 ** Math.abs(by), 1), by < 1 ? 2 : 1);
+const factor = (by) => show(Math.max(10 ** Math.abs(by), 1), Math.abs(by) < 1 ? 2 : 1);
 
 /** How the reader's curve compares with the exact one, of a picture with the given facts. */
 export function compareCurve(heights, { curve, exact, x, symbol }) {
