@@ -319,8 +319,6 @@ def profile_loss(robot, road, v, *, distance=None):
     if loss is None:
         return None
     j = int(np.flatnonzero((N <= 0).any(axis=0))[0])
-    if leg[j] != leg[j - 1]:
-        return loss  # in a jump
     begin, losses = passage.start[leg[j]] / passage.v[0], []
     for i in np.flatnonzero(N[:, j] <= 0):
 
@@ -328,7 +326,7 @@ def profile_loss(robot, road, v, *, distance=None):
             case = np.zeros(1, dtype=int)
             return passage.forces(case, case + leg[j], np.array([s - begin]))[0, i, 0]
 
-        ends = t[j - 1], t[j]
+        ends = t[j - 1], t[j]  # in a jump one and the same
         at = brentq(force, *ends, xtol=1e-15) if force(ends[0]) > 0 > force(ends[1]) else ends[1]
         losses.append(Loss(int(i) + 1, float(at)))
     return min(losses, key=lambda loss: loss.t)

@@ -38,7 +38,7 @@ NAMES = {
     "distance": "Way to drive",
 }
 KILOBYTES = 450  # of the page, gzipped
-SECONDS = 0.5  # until it is alive
+SECONDS = 0.25  # from the page's being read until this is alive, after the other instruments
 
 
 @pytest.fixture
@@ -506,12 +506,16 @@ def test_the_page_is_alive_at_once_and_light(browser, site, book):
         tab.add_init_script(ALIVE)
         tab.goto(f"{site}{PAGE}")
         tab.wait_for_function("window.alive")
-        times.append(tab.evaluate("alive"))
+        read = "performance.getEntriesByType('navigation')[0].domInteractive"
+        times.append(tab.evaluate(f"[alive - {read}, alive]"))
         tab.close()
-        if times[-1] < 1000 * SECONDS:
+        if times[-1][0] < 1000 * SECONDS:
             break
-    print(f"alive after {min(times):.0f} ms")
-    assert min(times) < 1000 * SECONDS
+    best = min(times)
+    print(
+        f"alive {best[0]:.0f} ms after the page was read, {best[1]:.0f} ms after it was asked for"
+    )
+    assert best[0] < 1000 * SECONDS
     html = (book / PAGE).read_text(encoding="utf-8")
     names = {match.split("?")[0] for match in re.findall(r"_static/([\w./-]+\.(?:js|css))", html)}
     files = [book / "_static" / name for name in names] + [book / PAGE]

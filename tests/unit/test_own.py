@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from node import run_in_node
+from scipy.optimize import minimize_scalar
 
 import suspension
 from suspension import GaussianBump, Robot, highest_bump, margin, profiles, regimes
@@ -57,7 +58,8 @@ const answers = states.map(({ thorough, ...raw }) => {
   answer.linked = JSON.stringify(readLink(writeLink(state), facts)) === JSON.stringify(state);
   if (thorough) {
     const start = performance.now();
-    for (const _ of everySpeed(scene.course, facts));
+    for (const part of everySpeed(scene.course, facts))
+      if (part === "curve") answer.first = scene.critical;
     answer.seconds = (performance.now() - start) / 1000;
     answer.critical = scene.critical;
     answer.kept = scene.kept;
@@ -235,6 +237,37 @@ def test_critical_speeds_are_where_the_package_s_margin_changes_its_sign(searche
         kept = (np.searchsorted(critical, v) % 2 == 0) == answer["kept"]
         assert np.array_equal(kept, margins(own, v) > 0)
     assert count > 44
+
+
+def test_a_thorough_search_finds_two_critical_speeds_that_nearly_meet(tmp_path):
+    """A bump a little lower than a summit of the curve is lost on either side of it."""
+    v = np.geomspace(0.3, 0.7, 400)
+    heights = highest_bump(ROBOT, BUMP, v)
+    [top] = np.flatnonzero((heights[1:-1] > heights[:-2]) & (heights[1:-1] > heights[2:]))[:1] + 1
+    found = minimize_scalar(
+        lambda v: -highest_bump(ROBOT, BUMP, v),
+        bounds=(v[top - 1], v[top + 1]),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    height = -found.fun * (1 - 3e-4)
+    state = own().state | {"ground": {"kind": "bump", "height": height, "sigma": BUMP.sigma}}
+    [answer] = ask(tmp_path, [state | {"thorough": True}])
+    beside = [x for x in answer["critical"] if abs(x / found.x - 1) < 1e-2]
+    assert len(beside) == 2 and beside[0] < found.x < beside[1] and np.ptp(beside) < 2e-3
+    exact = regimes(ROBOT, GaussianBump(height=height), 0.3, 0.7).critical
+    close(beside, exact[np.abs(exact / found.x - 1) < 1e-2])
+
+
+def test_a_first_look_finds_those_that_are_apart(searched):
+    same = 0
+    for _, answer in zip(*searched, strict=True):
+        first, critical = np.array(answer["first"]), np.array(answer["critical"])
+        same += len(first) == len(critical)
+        if len(first):
+            off = np.abs(first[:, None] / critical - 1).min(axis=1)
+            assert off.max() <= PARITY
+    assert same > 30
 
 
 @pytest.mark.slow

@@ -117,6 +117,16 @@ def test_the_first_loss_is_the_flight_s_first_lift_off(road):
                 assert loss.t == pytest.approx(first.t, abs=1e-9)
 
 
+def test_a_wheel_may_be_lost_in_a_jump():
+    peak = RoadProfile([0.2, 0.3, 0.4], [0, 0.03, 0], kind="linear")
+    robot, v = replace(ROBOT, c1=15, c2=15), 3.0
+    loss = profile_loss(robot, peak, v)
+    assert loss.wheel == 2 and v * loss.t == pytest.approx(0.3 - robot.L2, abs=1e-12)
+    X, N = by_dop853(robot, peak, v, 0.25)
+    top = 0.3 - robot.L2
+    assert N[:, X < top - 1e-6].min() > 0 > N[1, X > top + 1e-6].max()
+
+
 def test_a_bump_in_many_pieces_is_the_bump():
     bump = GaussianBump()
     x = np.linspace(0.11, 0.49, 1201)
@@ -159,6 +169,11 @@ def test_forces_are_linear_in_the_heights():
         scaled = RoadProfile(road.x, part * road.h)
         assert profile_margin(LOPSIDED, scaled, v) == pytest.approx(0, abs=1e-9)
     assert highest_multiple(ROBOT, RoadProfile([0.2, 0.3], [0, 0]), 1.0) == np.inf
+
+
+def test_no_height_lifts_a_wheel_on_a_way_that_ends_while_it_climbs():
+    ramp = RoadProfile([0.107, 0.4], [0, 0.02], kind="linear")
+    assert highest_multiple(replace(ROBOT, k2=813, c2=1.7), ramp, 40.0, distance=0.02) == np.inf
 
 
 def test_moving_the_road_and_the_end_along_changes_nothing():

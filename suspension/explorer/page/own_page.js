@@ -13,7 +13,6 @@ function start() {
       key = `suspension-own ${location.pathname} ${index}`,
       { facts } = values;
     const recalled = recall(key, facts);
-    model.initial = values.state; // where Reset leads
     const isSaid =
       index === 0 &&
       followAddress(model, box, {
