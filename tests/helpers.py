@@ -176,6 +176,19 @@ def start_chromium(path):
             browser.close()
 
 
+def swipe(tab, x, y, dx, dy):
+    """A finger comes down, moves in eight steps and is lifted."""
+    session = tab.context.new_cdp_session(tab)
+    for n in range(9):
+        kind, point = (
+            ("touchMove" if n else "touchStart"),
+            {"x": x + dx * n / 8, "y": y + dy * n / 8},
+        )
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [point]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    tab.wait_for_timeout(250)
+
+
 def run_python(python, *arguments, cwd, **environment):
     """What a Python prints; an error is shown as it came."""
     done = subprocess.run(

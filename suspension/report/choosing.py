@@ -30,6 +30,7 @@ __all__ = [
     "contact_map",
     "drive_links",
     "farthest",
+    "game_note",
     "measured_length",
     "price_map",
     "rest_note",
@@ -209,6 +210,29 @@ def rest_note(fit, robot):
         f"the fitted parabola it rests at {fixed(1000 * parabola, 1)}{SPACE}mm, and [Part VIII]"
         "(08-measured-spring.ipynb) says what else that changes."
     )
+
+
+def game_note(robot, fit):
+    """With which robot the game of the laboratory is played, if it is not quite the one at hand.
+
+    Parameters
+    ----------
+    robot : Robot
+    fit : suspension.springs.SpringFit
+        Of its springs.
+    """
+    words = []
+    if robot.twin != robot:
+        words.append(
+            "The robot is not symmetric. The game is played with its **symmetric twin**, which has "
+            "the means of both axles."
+        )
+    if not fit.linearity().linear:
+        words.append(
+            "The readings contradict a spring without preload and curvature. The game is played "
+            f"with a straight spring of its stiffness at zero, {quantity(fit.stiffness, 'N/m')}."
+        )
+    return " ".join(words)
 
 
 def room_note(asked, flown, pressed, limit):

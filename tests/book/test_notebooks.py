@@ -9,6 +9,7 @@ from normalise import normalise
 
 MYST = re.compile(r"\{[a-z:-]+\}`|^(```|:::+) ?\{|^\(.*\)=$", re.MULTILINE)
 PARTS = sorted(ROOT.glob("notebooks/*.ipynb"))
+COMMITTED = ("03-runge-kutta", "05-how-we-know", "06-how-sure", "08-measured-spring")
 WORKBOOK = sorted(ROOT.glob("notebooks/workbook/*.ipynb"))
 
 
@@ -86,6 +87,26 @@ def test_holds_plain_markdown_only(path):
     for cell in nbformat.read(path, as_version=4).cells:
         if cell.cell_type == "markdown":
             assert not MYST.search(cell.source)
+
+
+def predictions(path):
+    """Of each prediction of a notebook: its question, the heading of its fold, its answer."""
+    cells = nbformat.read(path, as_version=4).cells
+    asked = [i for i, cell in enumerate(cells) if "**Predict.**" in cell.source]
+    return [cells[i : i + 3] for i in asked]
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_a_prediction_has_choices_to_tap_and_a_computed_answer(name):
+    found = predictions(ROOT / "notebooks" / f"{name}.ipynb")
+    assert found
+    for question, fold, answer in found:
+        words = question.source.partition("**Predict.**")[2]
+        choices = re.findall(r"^- (.*)$", words, re.MULTILINE)
+        assert len(choices) >= 3 and words.rstrip().endswith(choices[-1])
+        assert re.fullmatch(r"#+ Answer", fold.source)
+        assert answer.cell_type == "code" and "remove-input" in answer.metadata["tags"]
+        assert answer.outputs[0].data["text/markdown"].startswith("**")
 
 
 @pytest.mark.parametrize("path", WORKBOOK, ids=name)

@@ -4,7 +4,7 @@ import gzip
 
 import nbformat
 import pytest
-from helpers import AXE, violations
+from helpers import AXE, swipe, violations
 from lab import run_all, serve
 from nbformat.v4 import new_code_cell, new_notebook
 
@@ -278,8 +278,27 @@ def test_a_finger_turns_a_number(visit):
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
     assert box["height"] >= 44
-    tab.touchscreen.tap(box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2)
+    swipe(tab, box["x"] + 0.3 * box["width"], box["y"] + box["height"] / 2, 70, 3)
     assert float(entry(tab, "b1").input_value()) > 0.5 and "order 0" in said(tab)
+
+
+def test_a_finger_that_scrolls_turns_nothing(visit):
+    tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    sliders = tab.locator(f"{BOX} input[type=range]")
+    assert sliders.count() == 3
+    for nth in range(3):
+        sliders.nth(nth).evaluate("e => e.scrollIntoView({ block: 'center' })")
+        tab.wait_for_timeout(200)
+        box, value = sliders.nth(nth).bounding_box(), sliders.nth(nth).input_value()
+        x, y = box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2
+        height = tab.evaluate("scrollY")
+        swipe(tab, x, y, 5, -150)
+        assert tab.evaluate("scrollY") > height + 60
+        assert sliders.nth(nth).input_value() == value
+        tab.evaluate("height => scrollTo(0, height)", height)
+        tab.wait_for_timeout(200)
+        swipe(tab, x, y, 50, 3)
+        assert sliders.nth(nth).input_value() != value
 
 
 def test_forced_colours_leave_everything_to_be_seen(visit):

@@ -126,3 +126,25 @@ test("a race gives each robot its time, by one clock", () => {
     ["24.0", "24.0", "4.00", "0.750"],
   );
 });
+
+test("a state can be where one begins", () => {
+  const world = makeWorld(),
+    { history } = world;
+  for (const v of [2, 3]) {
+    world.state.v = v;
+    history.note();
+  }
+  history.undo();
+  world.state.v = 7;
+  history.restart();
+  assert.deepEqual([history.canUndo(), history.canRedo()], [false, false]);
+  history.undo();
+  assert.equal(world.state.v, 7);
+});
+
+test("a robot of a race is named by its speed as one writes it", () => {
+  const lanes = [0.25, 0.1 + 0.2].map((v) => crossing(v)),
+    scene = Object.assign(lanes[0], { lanes }),
+    names = new Set(eventsOf(scene, "flying").map(({ words }) => words.split(": ")[0]));
+  assert.ok(names.has("0.3\u00a0m/s") && names.has("0.25\u00a0m/s"), [...names].join());
+});

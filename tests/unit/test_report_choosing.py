@@ -1,5 +1,7 @@
 """Sentences of Part X, for springs and robots of every kind."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults, fitted
@@ -61,6 +63,7 @@ def test_sentences_about_any_spring_are_sound(k):
         part.beaten(robot, [(700, 3)]),
         part.choice_table(CHOICES, candidates, LIMIT),
         part.rest_note(fitted(k, preload=1.5, curvature=2.0), robot),
+        part.game_note(replace(robot, k2=1.2 * k), fitted(k, preload=1.5, curvature=2.0)),
         part.measured_length(STIFFEST, LIMIT),
         part.between(candidates),
         part.robust_table(least),
@@ -151,6 +154,15 @@ def test_a_preload_that_the_readings_prove_is_told():
     note = plain(part.rest_note(fitted(793, preload=1.5), ROBOT))
     load = ROBOT.m * ROBOT.g / 2
     assert f"rests at {1000 * (load - 1.5) / 793:.1f} mm" in note
+
+
+def test_a_game_with_another_robot_than_the_measured_one_says_so():
+    straight, curved = fitted(793), fitted(793, preload=1.5)
+    assert part.game_note(ROBOT, straight) == ""
+    assert "**symmetric twin**" in part.game_note(replace(ROBOT, c1=2.0), straight)
+    note = plain(part.game_note(ROBOT, curved))
+    assert note.startswith("The readings contradict") and f"{curved.stiffness:.3g} N/m" in note
+    assert part.game_note(replace(ROBOT, c1=2.0), curved).endswith(part.game_note(ROBOT, curved))
 
 
 def test_a_demand_that_is_met_or_cannot_be_is_told():

@@ -4,7 +4,7 @@
 import { drawAxes, logFrame } from "./axes.js";
 import { button, make, write } from "./dom.js";
 import { makeHistory } from "./history.js";
-import { begin, clamp, show, ticks } from "./pen.js";
+import { begin, clamp, enlargement, ratioOf, show, ticks } from "./pen.js";
 import { fitReadings, follow, makeBranch, whyNot } from "./readings.js";
 import { coloursOf, onTheme } from "./theme.js";
 import {
@@ -48,7 +48,8 @@ export function renderChain(model, el) {
     legend = make(root, "p", "se-key"),
     texts = make(root, "div", "se-texts"),
     tables = makeTables();
-  let at = null, // the chosen reading
+  let zoom = 1, // of the pictures
+    at = null, // the chosen reading
     now = follow(model.get("readings"), facts, branches),
     isLarge = false,
     view = null, // the forces in sight
@@ -154,7 +155,7 @@ export function renderChain(model, el) {
   const line = (x) => (isLarge ? first.beta[0] + first.beta[1] * x : 0);
   const spot = ({ clientX, clientY }) => {
     const { left, top } = panels[0].canvas.getBoundingClientRect();
-    return [clientX - left, clientY - top];
+    return [(clientX - left) / zoom, (clientY - top) / zoom];
   };
   const near = (event) => {
     const { px, py } = linearFrame(...panels[0].size, ...view),
@@ -226,7 +227,7 @@ export function renderChain(model, el) {
     colours ??= coloursOf(root);
     const draw = [drawReadings, drawEllipse, drawMap];
     panels.forEach(({ canvas, size: [w, h] }, i) => {
-      if (w && h) draw[i](begin(canvas, w, h, colours), w, h);
+      if (w && h) draw[i](begin(canvas, w, h, colours, ratioOf(zoom)), w, h);
     });
     root.dispatchEvent(new Event("painted", { bubbles: true })); // for those who measure
   }
@@ -399,9 +400,10 @@ export function renderChain(model, el) {
   }
 
   const sizes = new ResizeObserver((entries) => {
+    zoom = enlargement();
     for (const { target, contentRect } of entries) {
       const panel = panels.find(({ canvas }) => canvas === target);
-      panel.size = [contentRect.width, contentRect.height].map(Math.round);
+      panel.size = [contentRect.width, contentRect.height].map((size) => Math.round(size / zoom));
     }
     scheduled ||= requestAnimationFrame(paint);
   });

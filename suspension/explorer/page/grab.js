@@ -3,12 +3,12 @@
 
 import { isPull } from "./touch.js";
 
-export function makeGrab({ panels, schedule, change }, shown, move) {
-  for (const panel of panels) {
+export function makeGrab(painter, shown, move) {
+  for (const panel of painter.panels) {
     const { canvas } = panel,
       at = ({ clientX, clientY }) => {
         const { left, top } = canvas.getBoundingClientRect();
-        return [clientX - left, clientY - top];
+        return [clientX - left, clientY - top].map((way) => way / painter.zoom);
       };
     let hold = null,
       touched = null; // what a finger is on, and where it came down
@@ -20,6 +20,7 @@ export function makeGrab({ panels, schedule, change }, shown, move) {
     };
     canvas.addEventListener("pointerdown", (event) => {
       touched = null;
+      if (!event.isPrimary) return release(); // two fingers enlarge the page
       if (event.button || !shown.isComputed()) return;
       const found = panel.grab(...at(event), shown.options());
       if (!found) return;
@@ -35,6 +36,7 @@ export function makeGrab({ panels, schedule, change }, shown, move) {
       touched = null;
     });
     canvas.addEventListener("pointermove", (event) => {
+      if (!event.isPrimary) return;
       if (touched && isPull(event.clientX - touched.x, event.clientY - touched.y)) {
         take(touched.found, event);
         touched = null;
@@ -44,15 +46,15 @@ export function makeGrab({ panels, schedule, change }, shown, move) {
         canvas.style.cursor =
           panel.grab(...at(event), shown.options())?.cursor.replace("grabbing", "grab") ?? "";
     });
-    const release = () => {
+    function release() {
       if (!hold) return;
       hold = null;
       canvas.style.cursor = "";
       if (shown.held) {
         shown.held = null;
-        change();
-      } else schedule();
-    };
+        painter.change();
+      } else painter.schedule();
+    }
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
       canvas.addEventListener(name, release);
     canvas.addEventListener("pointercancel", () => (touched = null));

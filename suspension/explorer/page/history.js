@@ -26,6 +26,13 @@ export function makeHistory(read, write, key, told) {
       now = next;
       told();
     },
+    /** What is set now is where a reader begins. */
+    restart() {
+      past.length = 0;
+      future.length = 0;
+      now = read();
+      told();
+    },
     undo: () => go(past, future),
     redo: () => go(future, past),
   };

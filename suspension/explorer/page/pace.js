@@ -1,7 +1,7 @@
 // How time runs: what happens when, how fast the clock goes, and where it goes slower by itself.
 
-import { fractionAt, timeAt } from "./scene.js";
-import { WHEEL } from "./words.js";
+import { fractionAt, timeAt, toldVerdict } from "./scene.js";
+import { unit, WHEEL } from "./words.js";
 
 export const SECONDS = 8; // one crossing, played, where nothing slows it
 const SLOWER = 3; // times, around a lift-off and a landing
@@ -20,7 +20,7 @@ export function eventsOf(scene, motion) {
   const lanes = scene.lanes ?? [scene],
     events = [];
   for (const lane of lanes) {
-    const name = scene.lanes ? `${lane.v} m/s: ` : "";
+    const name = scene.lanes ? `${unit(lane.v, "m/s")}: ` : "";
     for (const { t, words, turns } of happenings(lane, motion))
       if (t >= 0 && t <= lane.end)
         events.push({ at: fractionAt(scene, t), words: name + words, turns: turns && !scene.lanes });
@@ -31,8 +31,9 @@ export function eventsOf(scene, motion) {
   return events;
 }
 
-function happenings({ data, settings, v, run, flight, truth }, motion) {
-  const found = [];
+function happenings(scene, motion) {
+  const { data, settings, v, run, flight } = scene,
+    found = [];
   if (data.hasBump && settings.height)
     data.wheels.forEach((offset, i) =>
       found.push({ t: (data.shape.centre - offset) / v, words: `${WHEEL[i]} wheel on top of the bump` }),
@@ -46,7 +47,7 @@ function happenings({ data, settings, v, run, flight, truth }, motion) {
     for (const i of [0, 1]) found.push(...changes(run, i));
     return found;
   }
-  const { wheel, t } = truth.verdict;
+  const { wheel, t } = toldVerdict(scene);
   found.push({ t, words: `least force, ${WHEEL[wheel]} wheel` });
   return found;
 }

@@ -70,6 +70,7 @@ function begin() {
   });
   if (location.hash.startsWith(PREFIX)) {
     const found = follow(location.hash);
+    found?.restart();
     if (document.readyState === "complete") show(found);
     else addEventListener("load", () => show(found), { once: true });
   }

@@ -1,7 +1,7 @@
 // Draws the panels, once a frame at most, in the colours of the theme and at the size that they have.
 
 import { PANELS } from "./panels.js";
-import { begin } from "./pen.js";
+import { begin, enlargement, ratioOf } from "./pen.js";
 import { racePanel } from "./race.js";
 import { coloursOf, onTheme } from "./theme.js";
 
@@ -17,7 +17,8 @@ export function makePainter({ root, canvases }, names, shown, told) {
   }));
   let frame = 0,
     redraw = true;
-  const painter = { panels, colours: null, schedule, change, destroy };
+  // A panel's size is what it has divided by `zoom`; it is drawn at that size and enlarged.
+  const painter = { panels, colours: null, zoom: 1, schedule, change, destroy };
 
   function schedule() {
     frame ||= requestAnimationFrame(paint);
@@ -42,12 +43,13 @@ export function makePainter({ root, canvases }, names, shown, told) {
   function paintPanel(panel, scene, options) {
     const [w, h] = panel.size;
     if (!w || !h) return; // not shown on a phone
+    const ratio = ratioOf(painter.zoom);
     if (redraw && panel.still) {
-      const key = [...panel.key(scene, options), w, h, devicePixelRatio, shown.looks].join();
-      if (key !== panel.drawn) panel.still(begin(panel.cache, w, h, painter.colours), scene, options);
+      const key = [...panel.key(scene, options), w, h, ratio, shown.looks].join();
+      if (key !== panel.drawn) panel.still(begin(panel.cache, w, h, painter.colours, ratio), scene, options);
       panel.drawn = key;
     }
-    const pen = begin(panel.canvas, w, h, painter.colours);
+    const pen = begin(panel.canvas, w, h, painter.colours, ratio);
     if (panel.still) pen.g.drawImage(panel.cache, 0, 0, w, h);
     panel.live?.(pen, scene, options);
   }
@@ -67,9 +69,10 @@ export function makePainter({ root, canvases }, names, shown, told) {
   // ---- their sizes
 
   const sizes = new ResizeObserver((entries) => {
+    painter.zoom = enlargement();
     for (const { target, contentRect } of entries) {
       const panel = panels.find(({ canvas }) => canvas === target);
-      panel.size = [Math.round(contentRect.width), Math.round(contentRect.height)];
+      panel.size = [contentRect.width, contentRect.height].map((size) => Math.round(size / painter.zoom));
     }
     redraw = true;
     // What is below the window when the page opens lets the others go first.

@@ -6,6 +6,7 @@ import { chartPanel } from "./chart.js";
 import { drawMap } from "./map.js";
 import { judge } from "./model.js";
 import { clamp, powers, show, ticks, trace } from "./pen.js";
+import { compression, drawRobot } from "./robot.js";
 import { extremes } from "./scene.js";
 import { drawStrip } from "./strip.js";
 import { FURTHER, ghostWords, WHEEL } from "./words.js";
@@ -57,7 +58,7 @@ const robotPanel = {
       const theirs = new Float64Array(4);
       [rear, front].forEach((offset, i) => ghost.scene.road(X + offset, theirs, i, 0));
       drawRobot(pen, ghost.scene, { ...place, u: theirs }, ghost.state, true);
-      text(ghostWords(motion, pinned), 0, 13);
+      ghostWords(motion, pinned).some((words) => text(words, 0, 13));
     }
     const shown = now[motion],
       wild = drawRobot(pen, scene, place, shown, false);
@@ -72,7 +73,7 @@ const robotPanel = {
         halo: true,
       });
       if (data.springEnd !== null && spring > data.springEnd) {
-        text(FURTHER, i ? w : 0, 30, {
+        text(FURTHER, i ? w : 0, 36, {
           align: i ? "right" : "left",
           colour: "doubt",
           bold: true,
@@ -92,79 +93,6 @@ const robotPanel = {
     };
   },
 };
-
-/** How far a spring is compressed. */
-const compression = ({ Cp, Dp }, W, u, i) =>
-  Cp[i].reduce((sum, value, j) => sum + value * W[j], 0) +
-  Dp[i].reduce((sum, value, j) => sum + value * u[j], 0);
-
-/** The body, springs, dampers and wheels in one state; true if it is far outside the picture. */
-export function drawRobot(
-  { g, stroke, line, dot },
-  { data, robot },
-  { X, px, py, u, r, ride, scale, arrows = true },
-  { W, N },
-  faint,
-) {
-  const far = 1.4 * (data.wheels[1] - data.wheels[0]),
-    Y = clamp(W[0], -far, far) || 0,
-    tilt = clamp(W[2], -1.5, 1.5) || 0;
-  const state = [Y, 0, tilt, 0];
-  const p = [0, 1].map((i) => compression(robot, state, u, i));
-  const hubs = p.map((value, i) => u[i] + Math.max(-value, 0) + r); // on the ground, else hanging
-  // How high the body rides and how large a wheel is drawn, the model does not know.
-  const ends = p.map((value, i) => Math.max(u[i] - value + ride, hubs[i] + 1.7 * r));
-  const at = data.wheels.map((offset) => px(X + offset)),
-    z = clamp((at[1] - at[0]) / 120, 0.4, 1); // springs and dampers of a small robot are small
-  const body = ends.map((end, i) => [at[i], py(end)]);
-  g.save();
-  if (faint) g.globalAlpha = 0.3;
-  body.forEach(([x, top], i) => {
-    const hub = py(hubs[i]);
-    stroke(WHEEL[i], 1.8 * z);
-    const coils = Array.from({ length: 13 }, (_, k) => [
-      x + z * (k < 2 || k > 10 ? -6 : k % 2 ? 0 : -12),
-      hub + ((top - hub) * k) / 12,
-    ]);
-    line(...coils.flat());
-    const middle = (hub + top) / 2; // the damper: a rod in a cup
-    line(x + 9 * z, top, x + 9 * z, middle - 2 * z);
-    line(x + 5 * z, middle - 2 * z, x + 13 * z, middle - 2 * z);
-    const [edge, low, other, high] = [x + 4 * z, middle + 6 * z, x + 14 * z, middle - 9 * z];
-    line(edge, high, edge, low, other, low, other, high);
-    line(x + 9 * z, low, x + 9 * z, hub);
-    line(x - 6 * z, hub, x + 9 * z, hub);
-    g.save();
-    dot(x, hub, r * scale, faint ? null : "paper", faint || N[i] > 0 ? WHEEL[i] : "alarm", 3 * z);
-    g.restore();
-    if (faint || !arrows) return;
-    const foot = py(u[i]),
-      beside = x + (i ? 1 : -1) * (r * scale + 16);
-    const rest = clamp(0.2 * foot, 14, 34); // pixels for the force at rest
-    const arrow = clamp((rest * N[i]) / robot.weight[i], 0, foot - 4);
-    stroke(WHEEL[i], 2.5);
-    if (arrow > 2) line(beside, foot, beside, foot - arrow);
-    if (arrow > 7) line(beside - 4, foot - arrow + 6, beside, foot - arrow, beside + 4, foot - arrow + 6);
-  });
-  if (faint) g.globalAlpha = 0.3;
-  g.lineCap = "round";
-  stroke("ink", 8 * z);
-  line(...body.flat());
-  g.lineCap = "butt";
-  if (!faint) {
-    const share = (0 - data.wheels[0]) / (data.wheels[1] - data.wheels[0]); // the centre of mass
-    dot(
-      body[0][0] + share * (body[1][0] - body[0][0]),
-      body[0][1] + share * (body[1][1] - body[0][1]),
-      5 * z,
-      "paper",
-      "ink",
-      2 * z,
-    );
-  }
-  g.restore();
-  return Y !== W[0] || tilt !== W[2];
-}
 
 /** Round numbers with lines along one axis. */
 function levels({ stroke, line, text }, values, py, left, right) {
@@ -194,12 +122,13 @@ const forcesPanel = {
     this.frame = { left, right, top, bottom, px, py, end };
 
     text(right > 300 ? "Normal forces (N)" : "Forces (N)", 0, 13, { colour: "ink", bold: true });
+    const isWide = right > 250; // for the wheels' names
     pen.legend(
-      right - 164,
+      right - (isWide ? 164 : 96),
       13,
-      right,
+      right + (isWide ? 0 : 16),
       WHEEL.map((wheel, i) => ({
-        words: `${NAMES[i]} ${wheel}`,
+        words: isWide ? `${NAMES[i]} ${wheel}` : NAMES[i],
         colour: wheel,
         width: 2,
         dash: DASH[i],
@@ -208,7 +137,7 @@ const forcesPanel = {
     );
     pen.legend(left, h - 4, right - 34, [
       { words: flying ? "linear" : "exact", colour: "soft", width: 6, alpha: 0.3 },
-      ...(pinned ? [{ words: "pinned", colour: "soft", width: 1.5 }] : []),
+      ...(pinned ? [{ words: "pinned", colour: "pinned", width: 1.5 }] : []),
       ...(beyond.length
         ? [{ words: `spring > ${show(1000 * data.springEnd)} mm`, colour: "doubt", width: 4, alpha: 0.6 }]
         : []),
@@ -249,7 +178,7 @@ const forcesPanel = {
       if (pinned) {
         for (const i of [0, 1]) {
           stroke(
-            "soft",
+            "pinned",
             1.5,
             DASH[i],
             trace(pinned.N[i], (m) => px((m * pinned.dt * pinned.v) / v), py, right - left),
@@ -356,7 +285,7 @@ const speedsPanel = {
       { curve, data, robot } = scene;
     const { speeds, least, critical } = curve,
       [lowest, highestSpeed] = data.ranges.v;
-    const [left, right, top, bottom] = [38, w - 12, 46, h - 33],
+    const [left, right, top, bottom] = [38, w - 12, 49, h - 33],
       rest = Math.max(...robot.weight);
     const bottomForce = Math.min(...[...least, ...(pinned?.least ?? [])].map((N) => Math.min(...N)));
     const low = Math.max(1.1 * Math.min(bottomForce, -0.4 * rest), -7 * rest),
@@ -397,7 +326,7 @@ const speedsPanel = {
       if (pinned)
         for (const i of [0, 1])
           stroke(
-            "soft",
+            "pinned",
             1.5,
             DASH[i],
             trace(pinned.least[i], (m) => px(speeds[m]), py, FAR),
@@ -509,7 +438,7 @@ const stabilityPanel = {
         }
       }
       fill("soft", 1, others);
-      if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "soft", 1.5));
+      if (pinned) pinned.z.forEach(([re, im]) => dot(px(re), py(im), 4, null, "pinned", 1.5));
       robot.modes.forEach(([re, im], i) =>
         dot(px(re * dt), py(im * dt), main ? 5.5 : 4.5, growths[i] > 1 + 1e-12 ? "alarm" : "ink", "paper"),
       );

@@ -3,6 +3,13 @@
 const FAR = 5000; // pixels
 const SIZE = 12; // of letters in a picture, pixels
 
+/** How much larger than usual a reader wants letters: pictures grow with them, see `makePainter`. */
+export const enlargement = () =>
+  Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16 || 1;
+
+/** Pixels of the screen for one of a picture. */
+export const ratioOf = (zoom) => (window.devicePixelRatio || 1) * zoom;
+
 export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /** A number in few digits, with a true minus sign and powers of ten. */
@@ -79,7 +86,7 @@ function boxOf({ a, b, c, d, e, f }, x, y, length, size) {
  * A cleared canvas of w by h at the screen's resolution, and a pen with the theme's colours. It never
  * writes over what it has written, nor what would be cut: of two words for one place the first stays.
  */
-export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 1) {
+export function begin(canvas, w, h, colours, ratio = ratioOf(1)) {
   const g = canvas.getContext("2d");
   const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -147,21 +154,24 @@ export function begin(canvas, w, h, colours, ratio = window.devicePixelRatio || 
       g.restore();
       return free;
     },
-    /** Swatches, each with a word for it, one after another as long as there is room. */
+    /** Swatches, each with a word for it, one after another as long as there is room; whether there was. */
     legend(x, y, end, entries) {
       g.save();
       g.font = `${SIZE}px ${colours.font}`;
+      let all = true;
       for (const { words, colour, width, alpha = 1, dash = [], ink = "soft" } of entries) {
         const next = x + 26 + g.measureText(words).width;
-        if (next > end + 1) break;
+        all = next <= end + 1 && pen.text(words, x + 26, y, { colour: ink });
+        if (!all) break;
         pen.stroke(colour, width, dash);
         g.globalAlpha = alpha;
         pen.line(x, y - 4, x + 22, y - 4);
         g.globalAlpha = 1;
-        pen.text(words, x + 26, y, { colour: ink });
+        pen.reserve(x, y - 9, x + 22, y + 1);
         x = next + 12;
       }
       g.restore();
+      return all;
     },
     inside(x, y, width, height, draw) {
       g.save();

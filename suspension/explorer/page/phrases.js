@@ -23,7 +23,9 @@ export function followPhrases(view) {
   // A phrase of another notebook has waited for this one to be run.
   const begin = () => {
     const { node, anchor } = window[PENDING] ?? {};
-    if (node?.contains(view.box) && window[LIVE].follow(node, anchor)) delete window[PENDING];
+    if (!node?.contains(view.box) || !window[LIVE].follow(node, anchor)) return;
+    delete window[PENDING];
+    view.restart();
   };
   view.box.addEventListener("painted", begin, { once: true });
   return () => views.delete(live);

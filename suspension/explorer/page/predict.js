@@ -5,7 +5,7 @@
 import { drawAxes, drawLine, logFrame } from "./axes.js";
 import { button, make, write } from "./dom.js";
 import { compareCurve, compareLine, describeDrawn, drawn, ENOUGH, share, strokeAt } from "./drawing.js";
-import { begin, clamp, show } from "./pen.js";
+import { begin, clamp, enlargement, ratioOf, show } from "./pen.js";
 import { coloursOf, onTheme } from "./theme.js";
 
 const STOPS = 24; // the keys move by such parts of the axes
@@ -18,7 +18,7 @@ export function renderPrediction(model, el) {
   const root = make(el, "div", "suspension-explorer se-predict"),
     stage = make(root, "div", "se-axes"),
     canvas = make(stage, "canvas", "", { role: "img" });
-  let [w, h, frame, colours] = [0, 0, null, null],
+  let [w, h, zoom, frame, colours] = [0, 0, 1, null, null],
     scheduled = 0,
     pen = null; // where the keys are, while they draw
 
@@ -132,7 +132,7 @@ export function renderPrediction(model, el) {
     scheduled = 0;
     if (!w || !h) return;
     colours ??= coloursOf(root);
-    const p = begin(canvas, w, h, colours);
+    const p = begin(canvas, w, h, colours, ratioOf(zoom));
     frame = logFrame(w, h, x, y);
     const { left, right, top, bottom, px, py } = frame;
     drawAxes(p, frame, names);
@@ -198,7 +198,8 @@ export function renderPrediction(model, el) {
   }
 
   const sizes = new ResizeObserver(([{ contentRect }]) => {
-    [w, h] = [contentRect.width, contentRect.height].map(Math.round);
+    zoom = enlargement();
+    [w, h] = [contentRect.width, contentRect.height].map((size) => Math.round(size / zoom));
     scheduled ||= requestAnimationFrame(paint);
   });
   sizes.observe(canvas);

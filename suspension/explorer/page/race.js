@@ -1,8 +1,8 @@
 // Robots at several speeds, each in a lane of its own, on one road and by one clock.
 
 import { airborne } from "./model.js";
-import { drawRobot } from "./panels.js";
 import { clamp } from "./pen.js";
+import { drawRobot } from "./robot.js";
 import { fractionAt } from "./scene.js";
 import { laneWords } from "./words.js";
 
@@ -15,8 +15,8 @@ export const racePanel = {
       [rear, front] = data.wheels,
       length = front - rear;
     const [start, end] = [1.4 * rear, data.distance + 1.4 * front],
-      scale = w / (end - start),
-      height = h / lanes.length;
+      height = h / lanes.length,
+      scale = Math.min(w / (end - start), (height - 18) / (0.5 * length));
     this.scale = scale;
     const px = (x) => (x - start) * scale;
     lanes.forEach((lane, i) => {

@@ -175,14 +175,17 @@ export function momentOf(scene, fraction) {
   return { ...momentAt(scene, t), lanes: lanes?.map((lane) => momentAt(lane, Math.min(t, lane.end))) };
 }
 
+/** The verdict that the words give: that of the run, or the exact one if the run tells another story. */
+export const toldVerdict = (scene) => (scene.stable && !disagrees(scene) ? scene.run : scene.truth).verdict;
+
 /**
  * Where to look first, a fraction of the run: at the loss of contact or the least force, of the exact
  * motion if the run tells another story; flying, where a wheel is highest above the ground.
  */
 export function momentToShow(scene, motion) {
-  const { run, truth, exactFlight, end, stable } = scene;
+  const { exactFlight, end } = scene;
   if (motion === "flying" && exactFlight.events.length) return Math.min(highest(exactFlight) / end, 1);
-  const { lost, t } = (stable && !disagrees(scene) ? run : truth).verdict;
+  const { lost, t } = toldVerdict(scene);
   return Math.min((lost ? lost.t : t) / end, 1);
 }
 

@@ -2,8 +2,8 @@
 
 const HIGH = 9; // pixels, of the road's highest place
 
-/** Above a picture on the right, w pixels wide. */
-export function drawStrip({ w, stroke, fill, line }, { data, road, settings }, X) {
+/** Above a picture on the right, w pixels wide; no word goes there. */
+export function drawStrip({ w, stroke, fill, line, reserve }, { data, road, settings }, X) {
   const [rear, front] = data.wheels,
     [start, end] = [rear, data.distance + front],
     width = Math.min(0.36 * w, 200),
@@ -23,6 +23,7 @@ export function drawStrip({ w, stroke, fill, line }, { data, road, settings }, X
   shape.lineTo(px(end), bottom + 3);
   shape.lineTo(left, bottom + 3);
   if (settings.height || !data.hasBump) fill("ground", 1, shape);
+  reserve(left - 6, bottom - HIGH, w, bottom + 7);
   stroke("ink", 4);
   line(px(X + rear), bottom + 5, px(X + front), bottom + 5);
 }

@@ -1,6 +1,18 @@
 // The colours of the theme, as the style sheet has them, and when they change.
 
-const COLOURS = ["ink", "soft", "line", "ground", "rear", "front", "region", "alarm", "doubt", "paper"];
+const COLOURS = [
+  "ink",
+  "soft",
+  "line",
+  "ground",
+  "rear",
+  "front",
+  "region",
+  "alarm",
+  "doubt",
+  "pinned",
+  "paper",
+];
 
 export function coloursOf(root) {
   const style = getComputedStyle(root),

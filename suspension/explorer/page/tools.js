@@ -14,6 +14,8 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
   const { tabs, tools, stage, box } = frame,
     undo = [];
   const follow = {
+    /** Undo leads back to what is set now, and no further. */
+    restart: () => history.restart(),
     view() {
       const view = model.get("view");
       stage.dataset.view = view;

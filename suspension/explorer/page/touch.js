@@ -16,30 +16,36 @@ export const isPull = (dx, dy, held = false) =>
 export function tameSliders(box) {
   let touch = null; // the slider under a finger, and where it was
 
-  const start = ({ target, pointerType, clientX, clientY }) => {
+  const start = ({ target, pointerType, isPrimary, clientX, clientY }) => {
+    if (!isPrimary) return scroll(); // two fingers enlarge the page
     touch = null;
     if (pointerType !== "touch" || !target.matches("input[type=range]")) return;
     const { left, width } = target.getBoundingClientRect(),
       travel = width - HANDLE,
       shown = target.value,
-      held = Math.abs(clientX - left - HANDLE / 2 - shown * travel) < HANDLE;
+      ends = [Number(target.min), Number(target.max)],
+      place = (shown - ends[0]) / (ends[1] - ends[0]),
+      held = Math.abs(clientX - left - HANDLE / 2 - place * travel) < HANDLE;
     touch = {
       slider: target,
       x: clientX,
       y: clientY,
       travel,
-      place: Number(shown),
+      place,
+      ends,
       held,
       shown,
       state: "waits",
     };
   };
-  const move = ({ pointerType, clientX, clientY }) => {
-    if (!touch || pointerType !== "touch" || touch.state === "scrolls") return;
+  const move = ({ pointerType, isPrimary, clientX, clientY }) => {
+    if (!touch || pointerType !== "touch" || !isPrimary || touch.state === "scrolls") return;
     const dx = clientX - touch.x;
     if (touch.state === "waits" && !isPull(dx, clientY - touch.y, touch.held)) return;
     touch.state = "pulls";
-    touch.slider.value = Math.min(Math.max(touch.place + dx / touch.travel, 0), 1);
+    const [low, high] = touch.ends,
+      place = Math.min(Math.max(touch.place + dx / touch.travel, 0), 1);
+    touch.slider.value = low + place * (high - low);
     touch.slider.dispatchEvent(new Event("input", { bubbles: true }));
     touch.shown = touch.slider.value;
   };
@@ -53,8 +59,10 @@ export function tameSliders(box) {
     touch.slider.value = touch.shown;
   };
   const end = (event) => {
-    if (touch?.state === "waits") event.preventDefault(); // no tap, which a browser would take for a mouse's
-    touch = null;
+    const left = touch;
+    if (!left) return;
+    if (left.state !== "scrolls") event.preventDefault(); // no tap, which a browser would take for a mouse's
+    setTimeout(() => touch === left && (touch = null)); // Firefox tells of the finger once more
   };
   const listeners = Object.entries({
     pointerdown: start,

@@ -105,6 +105,7 @@ export function render(anyModel, el) {
     run,
     box: frame.box,
     settings: () => settingsOf(model),
+    restart: tools.restart,
     onSettled: speaker.onSettled,
     destroy() {
       for (const [name, listener] of Object.entries(listeners)) model.off(`change:${name}`, listener);

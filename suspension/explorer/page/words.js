@@ -52,11 +52,18 @@ function growing({ growths }) {
   return `|R|\u00a0=\u00a0${most < 10 ? most.toFixed(5) : show(most, 4)}`;
 }
 
-/** What is to be said first of a scheme that fails; undefined if it does not. */
+/** What is to be said first of a scheme that fails, `exact` in few words; undefined if it does not. */
 function failure(scene, exact) {
   if (!scene.run) return `${method(scene)} cannot take this step. Exactly: ${exact}.`;
   if (!scene.stable)
     return `Unstable: ${method(scene)} makes a mode grow by ${growing(scene)} every step. Exactly: ${exact}.`;
+}
+
+/** The exact answer without its numbers, which the details have. */
+function inBrief(scene) {
+  const { lost } = scene.truth.verdict;
+  if (isEdge(scene)) return "on the edge";
+  return lost ? `contact lost (${WHEEL[lost.wheel]} wheel)` : "contact kept";
 }
 
 const onEdge = (scene) => ({
@@ -67,11 +74,12 @@ const onEdge = (scene) => ({
 function describeRun(scene) {
   const { run, truth, stable, data } = scene,
     exact = truth.verdict,
-    failed = failure(scene, outcome(scene, exact)),
+    failed = failure(scene, inBrief(scene)),
     details = [];
   let tone, headline;
   if (failed) {
     [tone, headline] = ["doubt", failed];
+    details.push(`Exactly: ${outcome(scene, exact)}.`);
   } else if (disagrees(scene)) {
     tone = "doubt";
     const fault = !run.verdict.lost
@@ -123,15 +131,15 @@ function describeFlight(scene) {
   const { flight, exactFlight, dt } = scene,
     [first] = flight.events,
     [exactly] = exactFlight.events;
-  const story = ({ events }) =>
-    events.length
-      ? `off the ground: wheels lift ${times(events)}, first the ${wheel(scene, events[0])}`
-      : "no wheel leaves the ground";
-  const failed = failure(scene, isEdge(scene) ? outcome(scene, scene.truth.verdict) : story(exactFlight)),
+  const lifts = ({ events }) =>
+      events.length ? `wheels lift ${times(events)}` : "no wheel leaves the ground",
+    story = (of) => (of.events.length ? `${lifts(of)}, first the ${wheel(scene, of.events[0])}` : lifts(of));
+  const failed = failure(scene, isEdge(scene) ? inBrief(scene) : lifts(exactFlight)),
     details = first ? airOf(scene) : [];
   let tone, headline;
   if (failed) {
     [tone, headline] = ["doubt", failed];
+    details.unshift(`Exactly: ${isEdge(scene) ? outcome(scene, scene.truth.verdict) : story(exactFlight)}.`);
   } else if (isEdge(scene) && !(first && exactly && differ(first, exactly, dt))) {
     ({ tone, headline } = onEdge(scene));
   } else if (differ(first, exactly, dt) || times(flight.events) !== times(exactFlight.events)) {
@@ -146,7 +154,7 @@ function describeFlight(scene) {
   } else if (!first) {
     [tone, headline] = ["kept", "No wheel leaves the ground: flying and linear are the same."];
   } else {
-    [tone, headline] = ["lost", `${capital(story(flight))}.`];
+    [tone, headline] = ["lost", `Off the ground: ${story(flight)}.`];
   }
   return { tone, headline, details: details.concat(remarks(scene, flight)) };
 }
@@ -221,13 +229,13 @@ function describeRace({ lanes }, motion, now) {
   };
 }
 
-/** What the faint robot is. */
+/** What the faint robot is, in a few words and in fewer, for a narrow picture. */
 export const ghostWords = (motion, pinned) =>
   pinned
-    ? "faint: the pinned run"
+    ? ["faint: the pinned run", "faint: pinned"]
     : motion === "flying"
-      ? "faint: wheels held down (linear)"
-      : "faint: wheels free to lift";
+      ? ["faint: wheels held down (linear)", "faint: held down"]
+      : ["faint: wheels free to lift", "faint: free to lift"];
 
 /** Two lines that tell what solid, faint, dots, ticks and bands are. */
 export function keyOf({ data, lanes, flight, run }, motion, pinned) {

@@ -2,9 +2,10 @@
 // The state is what is typed: texts; while some of them are no numbers, the last good table is shown.
 
 import { button, make, write } from "./dom.js";
-import { begin, clamp, plain, show } from "./pen.js";
+import { begin, clamp, enlargement, plain, ratioOf, show } from "./pen.js";
 import { CONDITIONS, readEntry, rowSums, writeEntry } from "./tableau.js";
 import { coloursOf, onTheme } from "./theme.js";
+import { tameSliders } from "./touch.js";
 import { drawAxis, drawForces, drawRegion, drawWork, IN, slackAt } from "./workshop_draw.js";
 import { makeBench } from "./workshop_run.js";
 import {
@@ -316,7 +317,8 @@ export function renderWorkshop(model, el) {
 
   // ---- from the state to what one sees
 
-  let good = null, // what was examined last
+  let zoom = 1, // of the pictures
+    good = null, // what was examined last
     other = null, // the table to compare with, examined
     key = "",
     otherKey = "",
@@ -481,7 +483,7 @@ export function renderWorkshop(model, el) {
       work: (p) => drawWork(p, curves, tried),
     };
     for (const [name, { canvas, w, h }] of Object.entries(pictures)) {
-      if (w && h) draw[name](begin(canvas, w, h, colours));
+      if (w && h) draw[name](begin(canvas, w, h, colours, ratioOf(zoom)));
     }
     root.dispatchEvent(
       new CustomEvent("painted", { bubbles: true, detail: cost + performance.now() - begun }),
@@ -490,9 +492,10 @@ export function renderWorkshop(model, el) {
   }
 
   const sizes = new ResizeObserver((entries) => {
+    zoom = enlargement();
     for (const { target, contentRect } of entries) {
       const found = Object.values(pictures).find(({ canvas }) => canvas === target);
-      [found.w, found.h] = [contentRect.width, contentRect.height].map(Math.round);
+      [found.w, found.h] = [contentRect.width, contentRect.height].map((size) => Math.round(size / zoom));
     }
     scheduled ||= requestAnimationFrame(paint);
   });
@@ -504,7 +507,9 @@ export function renderWorkshop(model, el) {
   const watched = ["tableau", "kept", "v", "dt"].map((name) => `change:${name}`);
   for (const name of watched) model.on(name, update);
   update();
+  const release = tameSliders(root);
   return () => {
+    release();
     for (const name of watched) model.off(name, update);
     sizes.disconnect();
     leaveTheme();
