@@ -4,10 +4,8 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from suspension.figures.speeds import speed_axis
-from suspension.figures.style import COLOURS, LINES, MARKERS, axes_or_new
+from suspension.figures.style import COLOURS, FIELDS, LINES, MARKERS, axes_or_new
 from suspension.forces import WHEEL
-
-FIELDS = {"kept": "#cfe6f5", "lost": "#fbe3d6"}
 
 __all__ = [
     "plot_demand_map",
@@ -163,7 +161,8 @@ def plot_margins(v, margins, asked=(), ax=None):
         Speeds to mark on the curves.
     """
     ax = axes_or_new(ax)
-    ax.axhspan(-1e3, 0, color="#fbe3d6", lw=0, zorder=0)  # of the curves only the sign counts there
+    # Of the curves only the sign counts there.
+    ax.axhspan(-1e3, 0, color=FIELDS["lost"], lw=0, zorder=0)
     for i, (name, margin) in enumerate(margins.items()):
         style = {"color": f"C{i}"}
         ax.plot(v, margin, ls=LINES[i], label=name, **style)
@@ -197,7 +196,7 @@ def plot_rough_ride(x, H, places, N, axes):
     in_the_air = (np.min(N, axis=0) <= 0).astype(float)
     inside = axes[1].get_xaxis_transform()
     axes[1].fill_between(
-        places, 0, in_the_air, transform=inside, color="#fbe3d6", lw=0, zorder=0, step="mid"
+        places, 0, in_the_air, transform=inside, color=FIELDS["lost"], lw=0, zorder=0, step="mid"
     )
     axes[1].set(ylabel="normal force (N)", ylim=(0, 1.25 * np.max(N)))
     axes[1].legend(loc="upper right", ncols=2)

@@ -5,13 +5,12 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from suspension.figures.style import COLOURS, LINES, axes_or_new
+from suspension.figures.style import COLOURS, FIELDS, LINES, axes_or_new
 
 __all__ = ["empty_axes", "plot_chart", "plot_comb", "plot_paths", "plot_vehicles", "plot_window"]
 
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
-LOST = "#fbe3d6"
 # From weak to strong damping, of one lightness: they are read on a light and on a dark page.
 SHADES = ("#857a00", "#2e8b45", "#1a8a8a", "#3b82c4", "#8a70d6", "#c0549e")
 
@@ -84,7 +83,12 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.03, 300), 
             _at_the_end(ax, nu, eta, label, color=style["color"], fontsize=8.5, weight=weight)
     if own is not None:
         ax.fill_between(
-            nu, np.minimum(curves[own], heights[1]), heights[1], color=LOST, lw=0, zorder=0
+            nu,
+            np.minimum(curves[own], heights[1]),
+            heights[1],
+            color=FIELDS["lost"],
+            lw=0,
+            zorder=0,
         )
         words = {"transform": ax.transAxes, "color": "0.3", "fontsize": 10, "style": "italic"}
         ax.text(0.42, 0.93, "contact lost", ha="center", **words)
@@ -202,7 +206,7 @@ def plot_window(zeta, exact, limit, lines, bump, now, closes, ax=None):
     heights = (0.3 * np.min(lines), 1.3 * np.max(limit))
     ax = _chart_axes(axes_or_new(ax), zeta, heights)
     ax.set(xlabel=r"damping $\zeta = c/\sqrt{2km}$")
-    ax.fill_between(zeta, exact, heights[0], color="#e3f1e8", lw=0, zorder=0)
+    ax.fill_between(zeta, exact, heights[0], color=FIELDS["kept"], lw=0, zorder=0)
     ax.plot(zeta, lines, color="0.35", lw=1, ls="--", label="two straight lines")
     ax.plot(zeta, limit, color="C0", ls="-.", label="with the spring")
     ax.plot(zeta, exact, color="k", lw=2.4, label="exact")

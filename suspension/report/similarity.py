@@ -281,7 +281,8 @@ def chart_figure(zetas, own, found, speeds):
     """
     crossed = len(found.critical)
     return Caption(
-        f"The chart. Each curve is the highest bump that a robot crosses with contact; "
+        "The chart: one picture for every speed and height, for all robots of these proportions. "
+        "Each curve is the highest bump that a robot crosses with contact; "
         f"{count(len(zetas), 'damping')} with $\\zeta$ up to {number(max(zetas), 2)}, ours "
         f"({number(own, 2)}) drawn thick. The bump of the problem is the line across, "
         f"thick where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
