@@ -378,3 +378,8 @@ def test_the_conclusions_follow_from_the_tables():
 )
 def test_how_many_verdicts_are_signed_is_answered(line, stop, words):
     assert plain(part.how_many_signed(study_of(line, stop))) == words
+
+
+def test_one_of_three_is_fewer():
+    study = study_of((5, 1, 1), (5, -30, -30), asked=(0.25, 5, 10))
+    assert plain(part.how_many_signed(study)) == "**At fewer:** 0.25 m/s."

@@ -288,6 +288,7 @@ def test_what_becomes_of_the_last_critical_speed_is_answered(after, words):
     text = plain(part.last_speed(WINDOW, Regimes(after, verdicts)))
     assert words in text and not faults(text)
     assert ("has closed" in text) == (len(after) == 3)
+    assert "has closed" not in part.last_speed(RISES, RISES)  # there was none
 
 
 def by_stiffness(*speeds):
