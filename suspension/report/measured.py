@@ -223,7 +223,7 @@ def which_stay(critical):
     if not line:
         return "**The line has none in the range.**"
     if n in (0, len(line)):
-        return "**All of them.**" if n else "**None of them.**"
+        return "**All of them.**" if n else "**Not one.**"
     which = {n: "The slow ones", -n: "The fast ones"}
     where = n if kept == line[:n] else -n if kept == line[-n:] else 0
     share = f"{spelled(n)} of {spelled(len(line))}"

@@ -212,7 +212,7 @@ def test_critical_speeds_stay_or_go(line, other, words):
     [
         ([], [3.0], "**The line has none in the range.**"),
         ([0.4, 8.0], [0.41, 8.1], "**All of them.**"),
-        ([0.4, 8.0], [3.0], "**None of them.**"),
+        ([0.4, 8.0], [3.0], "**Not one.**"),
         ([0.4, 8.0, 20.0], [0.41], "**The slow ones:** 0.4 m/s, one of three."),
         ([0.4, 8.0, 20.0], [8.1, 20.1], "**The fast ones:** 8 and 20 m/s, two of three."),
         ([0.4, 8.0, 20.0], [8.1], "**Some of them:** 8 m/s, one of three."),
