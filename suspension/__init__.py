@@ -12,6 +12,7 @@ What goes beyond:
 - `exact`: the crossing of a bump in closed form
 - `least_force`, `critical`: its least forces, and the speeds at which they vanish
 - `contact`: all that answers "does a wheel leave the ground?", in one place
+- `profiles`: the same over a road in pieces, one that was measured or drawn
 - `similarity`: one chart for every speed, bump and robot, and its limits by hand
 - `flight`: what happens after it has
 - `tyre`: wheels that weigh something, and how light they must be

@@ -15,7 +15,7 @@ from suspension import _checks
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
-__all__ = ["Crossing", "bump_memory", "flat_ground", "over_bump"]
+__all__ = ["Crossing", "bump_memory", "flat_ground", "modes", "over_bump"]
 
 ILL_CONDITIONED = 30.0  # eigenvectors lose digits as the square of this
 CIRCLE = 8  # points in a mean over a circle, whose error is about (1/40)^CIRCLE
@@ -139,7 +139,7 @@ class Crossing:
     v : float
         Speed, m/s.
     lam : ndarray of complex, shape (modes,)
-        Eigenvalues, 1/s, one of each conjugate pair (or those on the circle of `_modes`).
+        Eigenvalues, 1/s, one of each conjugate pair (or those on the circle of `modes`).
     start : ndarray, shape (2,)
         ``xi`` at t = 0, rear and front wheel, counted along the way of travel.
     rate : float
@@ -155,7 +155,7 @@ class Crossing:
         width = np.sqrt(2) * bump.sigma
         self.start = np.copysign(1.0, self.v) * (robot.arms - bump.centre) / width
         self.rate = abs(self.v) / width
-        self.lam, self.right, left = _modes(robot)
+        self.lam, self.right, left = modes(robot)
         self.direct = robot.P * robot.c
         self.gain = left @ (robot.P * robot.k + robot.A @ self.direct)
         start = np.zeros(1)
@@ -227,13 +227,23 @@ def bump_memory(xi, kappa):
 
 
 @lru_cache(maxsize=32)
-def _modes(robot):
+def modes(robot):
     """A as modes: ``f(A) b = Re sum_m right[:, m] f(lam[m]) (left[m] @ b)`` for f entire and real.
 
     Near critical damping the eigenvectors nearly coincide and the sum cancels. But f(A) is an
     entire function of the stiffness, hence its own mean over a circle of complex stiffnesses
-    around the real one, and on the circle the modes are apart. Shapes (modes,), (4, modes) and
-    (modes, 4).
+    around the real one, and on the circle the modes are apart.
+
+    Parameters
+    ----------
+    robot : Robot
+
+    Returns
+    -------
+    lam : ndarray of complex, shape (modes,)
+        1/s.
+    right : ndarray of complex, shape (4, modes)
+    left : ndarray of complex, shape (modes, 4)
     """
     A = robot.A
     lam, right = np.linalg.eig(A)

@@ -16,6 +16,7 @@ from suspension.robot import Robot
 
 __all__ = [
     "Minimum",
+    "bottom",
     "distance_over",
     "duration",
     "exact_forces",
@@ -239,12 +240,8 @@ def duration(robot, bump, v, tfinal=None, distance=None):
 def _with_minima(crossing, t):
     """The samples `t` and the minima between them: times, s, and forces, N."""
     N, slope = exact_forces(crossing, t, 1)
-    dt, rise = np.diff(t), np.diff(N)
-    # The cubic through both ends of an interval has slope q(s) = p0 + p1 s + p2 s^2, 0 < s < 1.
-    p0, end = slope[:, :-1] * dt, slope[:, 1:] * dt
-    p1, p2 = 6 * rise - 4 * p0 - 2 * end, 3 * (p0 + end - 2 * rise)
-    root = np.sqrt(p1 * p1 - 4 * p0 * p2)
-    s = np.where(p1 > 0, -2 * p0 / (p1 + root), (root - p1) / (2 * p2))  # where q rises
+    dt = np.diff(t)
+    s = bottom(dt, np.diff(N), slope[:, :-1], slope[:, 1:])
     wheel, j = np.nonzero((s > 0) & (s < 1))
     at = t[j] + s[wheel, j] * dt[j]
     each = np.arange(len(j))
@@ -254,6 +251,26 @@ def _with_minima(crossing, t):
         at = np.clip(at - step, t[j], t[j + 1])
     t, order = np.unique(np.concatenate([t, at]), return_index=True)
     return t, np.concatenate([N, exact_forces(crossing, at)[0]], axis=1)[:, order]
+
+
+def bottom(dt, rise, before, after):
+    """Where the cubic between two samples is least inside, as a part of the way, 0 to 1.
+
+    Parameters
+    ----------
+    dt, rise, before, after : ndarray
+        Length of the interval, how much the force grows in it, and its slopes at both ends.
+
+    Returns
+    -------
+    s : ndarray
+        Not between 0 and 1, or nan, where it has no minimum inside.
+    """
+    # Its slope is q(s) = p0 + p1 s + p2 s^2.
+    p0, end = before * dt, after * dt
+    p1, p2 = 6 * rise - 4 * p0 - 2 * end, 3 * (p0 + end - 2 * rise)
+    root = np.sqrt(p1 * p1 - 4 * p0 * p2)
+    return np.where(p1 > 0, -2 * p0 / (p1 + root), (root - p1) / (2 * p2))  # where q rises
 
 
 def roundoff(crossing, tfinal):

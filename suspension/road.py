@@ -191,6 +191,31 @@ class RoadProfile:
                 height = PchipInterpolator(around, [h[0], *h, h[-1]])
         return height, height.derivative()
 
+    def powers(self, x: ArrayLike, start: ArrayLike) -> np.ndarray:
+        """The polynomial that holds at each `x`, in powers of the distance from `start`.
+
+        Parameters
+        ----------
+        x, start : array_like, shape (n,)
+            Positions, m.
+
+        Returns
+        -------
+        a : ndarray, shape (4, n)
+            ``H = a[0] + a[1] s + a[2] s^2 + a[3] s^3`` with s the distance from `start`, m.
+        """
+        x, start = _checks.array("x", x, (None,)), _checks.array("start", start, (None,))
+        height, _ = self._pieces
+        piece = np.clip(np.searchsorted(height.x, x, side="right") - 1, 0, len(height.x) - 2)
+        c3, c2, c1, c0 = np.vstack([np.zeros((4 - len(height.c), len(x))), height.c[:, piece]])
+        s = start - height.x[piece]
+        a = np.array(
+            [((c3 * s + c2) * s + c1) * s + c0, (3 * c3 * s + 2 * c2) * s + c1, 3 * c3 * s + c2, c3]
+        )
+        for level, h in ((x < self.x[0], self.h[0]), (x >= self.x[-1], self.h[-1])):
+            a[:, level] = [[h], [0], [0], [0]]
+        return a
+
     def __call__(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return height H in m and slope dH/dx at positions `x` in m, each of the shape of `x`.
 

@@ -22,6 +22,10 @@ from sphinx.util.docutils import SphinxDirective
 from suspension.explorer import (
     chain_script,
     chain_style,
+    game_script,
+    game_style,
+    own_script,
+    own_style,
     page_script,
     page_style,
     prediction_script,
@@ -34,28 +38,42 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
 LABORATORY, WORKSHOP = "suspension-laboratory", "suspension-laboratory se-workshop"
 CHAIN = "suspension-laboratory se-chain"
+GAME = "suspension-laboratory se-game"
+OWN = "suspension-laboratory se-own"
 BOX = re.compile(f"{EXPLORER}|{PREDICTION}|{LABORATORY}")
 SCRIPTS = {
     EXPLORER: "explorer.js",
     PREDICTION: "prediction.js",
     WORKSHOP: "workshop.js",
     CHAIN: "chain.js",
+    GAME: "game.js",
+    OWN: "own.js",
 }
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
-STYLES = {WIDE: "wide.css", WORKSHOP: "workshop.css", CHAIN: "chain.css"}
+STYLES = {
+    WIDE: "wide.css",
+    WORKSHOP: "workshop.css",
+    CHAIN: "chain.css",
+    OWN: "own.css",
+    GAME: "game.css",
+}
 WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
     "prediction.js": prediction_script,
     "workshop.js": workshop_script,
     "chain.js": chain_script,
+    "game.js": game_script,
     "explorer.css": page_style,
     "workshop.css": workshop_style,
     "chain.css": chain_style,
+    "game.css": game_style,
+    "own.js": own_script,
+    "own.css": own_style,
     "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
 }
 

@@ -1,8 +1,8 @@
 """Sphinx extension: sections that unfold.
 
-A heading that begins with Solution, Proof or Answer opens a section that the page shows folded. In
-JupyterLab the same heading is collapsed by its cell's ``jp-MarkdownHeadingCollapsed``, so that one
-plain heading serves both, with code cells and figures below it.
+A heading that begins with Solution, Proof, Check or Answer opens a section that the page shows
+folded. In JupyterLab the same heading is collapsed by its cell's ``jp-MarkdownHeadingCollapsed``,
+so that one plain heading serves both, with code cells and figures below it.
 
 A list between a paragraph that begins with **Predict.** and the fold of its answer are choices: the
 page's script makes them buttons, of which the one that is tapped stays marked and opens the answer.
@@ -11,7 +11,7 @@ page's script makes them buttons, of which the one that is tapped stays marked a
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 
-FOLDED = ("Solution", "Proof", "Answer")
+FOLDED = ("Solution", "Proof", "Check", "Answer")
 PREDICT = "Predict."
 
 

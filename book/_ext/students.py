@@ -32,8 +32,8 @@ With Python 3.11, 3.12, 3.13 or 3.14, in this folder:
     .venv/bin/python -m pip install --requirement requirements.txt
     .venv/bin/jupyter lab notebooks
 
-On Windows it is `.venv\\Scripts\\python` and `.venv\\Scripts\\jupyter`. Read a part, then fill in
-the notebook of the same name in `notebooks/workbook`.
+On Windows it is `.venv\\Scripts\\python` and `.venv\\Scripts\\jupyter`. The blanks to fill are in
+`notebooks/workbook`: each notebook there names the parts that it goes with; its number is its own.
 """
 TITLES = {
     "students": "A robot meets a bump: parts and workbook",
@@ -47,13 +47,19 @@ def tagged(cell, tag):
 
 
 def filled(notebook):
-    """A copy in which each blank of the workbook holds its solution."""
-    notebook, blank = copy.deepcopy(notebook), None
+    """A copy in which each blank of the workbook holds its solution.
+
+    Of the fold below it stays what it says in words.
+    """
+    notebook, blank, kept = copy.deepcopy(notebook), None, []
     for cell in notebook.cells:
         if tagged(cell, "blank"):
             blank = cell
-        elif tagged(cell, "solution"):
+        if tagged(cell, "solution"):
             blank.source = cell.source
+        elif not (cell.cell_type == "markdown" and HEADING.sub("", cell.source).strip() == ""):
+            kept.append(cell)
+    notebook.cells = kept
     return notebook
 
 
@@ -123,10 +129,10 @@ def needed_later(cells, dropped):
 
 def handed_out(notebook, kind, is_workbook):
     """What a reader of a copy gets of a notebook: no link leads out of it."""
-    if is_workbook and kind == "solutions":
-        notebook = filled(notebook)
-    if is_workbook or kind == "students":
+    if kind == "students":
         notebook = without_solutions(notebook)
+    elif is_workbook:
+        notebook = filled(notebook)
     notebook = copy.deepcopy(notebook)
     for cell in notebook.cells:
         if cell.cell_type == "markdown":

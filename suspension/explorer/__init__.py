@@ -22,6 +22,8 @@ from suspension.explorer.chain import Chain, chain_script, chain_style
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
+from suspension.explorer.game import Game, game_script, game_style
+from suspension.explorer.own import Own, own_script, own_style
 from suspension.explorer.predict import Prediction
 from suspension.explorer.settings import (
     CLOSE,
@@ -52,11 +54,17 @@ __all__ = [
     "Chain",
     "Explorer",
     "ExplorerBox",
+    "Game",
+    "Own",
     "Prediction",
     "Workshop",
     "chain_script",
     "chain_style",
     "explore",
+    "game_script",
+    "game_style",
+    "own_script",
+    "own_style",
     "page_script",
     "page_style",
     "prediction_script",

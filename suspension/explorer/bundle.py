@@ -14,7 +14,7 @@ NAME = r"[A-Za-z_]\w*"
 IMPORT = re.compile(
     rf'^import \{{\s*({NAME}(?:,\s*{NAME})*),?\s*\}} from "\./({NAME})\.js";$', re.MULTILINE
 )
-EXPORT = re.compile(rf"^export (?=(?:function|const|class) ({NAME})\b)", re.MULTILINE)
+EXPORT = re.compile(rf"^export (?=(?:function\*?|const|class) ({NAME})\b)", re.MULTILINE)
 COMMENT = re.compile(r"^[ \t]*(?://.*|/\*(?s:.*?)\*/)\n", re.MULTILINE)
 # What is left of these words is something else, like `export * from` or `import(..)`.
 OTHER = re.compile(r"^\s*(?:import|export)\b.*|\bimport\s*[(.].*", re.MULTILINE)

@@ -13,7 +13,7 @@ from suspension.explorer.settings import DTS
 from suspension.problem import BUMP
 from suspension.road import GaussianBump, profile
 
-__all__ = ["Family", "Range", "affine", "before_the_bump"]
+__all__ = ["Family", "Range", "affine", "before_the_bump", "round_up"]
 
 # What fits the problem's robot and bump, in units of their own; another family gets as much.
 SPEEDS = (0.1, 25.0)  # m/s, while width times frequency is near UNIT
@@ -105,7 +105,7 @@ class Family:
     def way(self):
         """How far the robot drives until both wheels have long passed a bump, m."""
         centre = getattr(self.road, "centre", BUMP.centre / BUMP.sigma * self.feature)
-        return _round_up(max(centre, 0.0) + self.robot.L1 + WAY * self.feature, WAYS)
+        return round_up(max(centre, 0.0) + self.robot.L1 + WAY * self.feature, WAYS)
 
     @property
     def longest_step(self):
@@ -118,13 +118,13 @@ class Family:
         own = self.own
         k, height, sigma = own["k"], own["height"], own["sigma"]
         damping = 0.12 * np.sqrt(2 * k * self.robot.m)  # an eighth of the critical one
-        far = _round_up(2 * abs(height) or sigma)
+        far = round_up(2 * abs(height) or sigma)
         return {
             "dt": Range(DTS[0], DTS[-1], True),
             "k": Range(max(min(150.0, 0.4 * k), 0.1 * k), min(max(2500.0, 2 * k), 10 * k), True),
-            "c": Range(0.0, max(_round_up(damping), 2 * own["c"])),
+            "c": Range(0.0, max(round_up(damping), 2 * own["c"])),
             "height": Range(-far, 0.0) if height < 0 else Range(0.0, far),
-            "sigma": Range(_round_down(0.4 * sigma), _round_up(3.3 * sigma), True),
+            "sigma": Range(_round_down(0.4 * sigma), round_up(3.3 * sigma), True),
         }
 
     def robot_at(self, k, c):
@@ -186,7 +186,7 @@ def before_the_bump(family, distance, little=0.01):
     return float(x[np.flatnonzero(H >= little * H.max())[0]] - front)
 
 
-def _round_up(x, steps=range(1, 10)):
+def round_up(x, steps=range(1, 10)):
     """The next number above x that is one of some steps times a power of ten."""
     ten = 10.0 ** np.floor(np.log10(x))
     steps = [*steps, 10]

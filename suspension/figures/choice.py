@@ -1,9 +1,10 @@
 """Figures of Parts IX to XI: the robot as a filter, maps for a choice, a rough road."""
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from suspension.figures.speeds import speed_axis
-from suspension.figures.style import COLOURS, LINES, MARKERS, axes_or_new
+from suspension.figures.style import COLOURS, FIELDS, LINES, MARKERS, axes_or_new
 from suspension.forces import WHEEL
 
 __all__ = [
@@ -36,8 +37,11 @@ def plot_gains(wavelength, heave, pitch, blind, axes):
             ax.axvline(place, color="0.6", lw=0.8, ls=":")
         for i, (v, gain) in enumerate(gains.items()):
             ax.plot(wavelength, gain, color=f"C{i}", ls=LINES[i], label=f"{v:g} m/s")
-        ax.set(xscale="log", xlabel="wavelength (m)", ylabel=name, ylim=(0, None))
-        ax.set_xlim(wavelength[0], wavelength[-1])
+        high = max(np.max(gain) for gain in gains.values())
+        ax.set(xscale="log", yscale="log", ylim=(high / 1000, 2 * high))
+        ax.set(xlabel="wavelength (m)", ylabel=name, xlim=(wavelength[0], wavelength[-1]))
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes[0].legend()
     return axes
 
@@ -72,7 +76,7 @@ def plot_ripples(v, margin, swings, single, exact, axes):
     return axes
 
 
-def plot_demand_map(k, c, values, levels, marks, label, contact=None, ax=None):
+def plot_demand_map(k, c, values, levels, marks, label, contact=None, blank=None, ax=None):
     """What suspensions give or ask for, over stiffness and damping, both on logarithmic axes.
 
     Parameters
@@ -87,15 +91,24 @@ def plot_demand_map(k, c, values, levels, marks, label, contact=None, ax=None):
     label : str
         What the values are, with their unit.
     contact : array_like, shape (m, n), optional
-        Positive where contact is kept and negative where it is lost: a white line parts them.
+        Positive where contact is kept, negative where it is lost, and continuous where it is zero:
+        a white line is drawn there.
+    blank : {"kept", "lost"}, optional
+        The side of this line of which the values say nothing: it is painted in one tone.
     """
     ax = axes_or_new(ax)
     extend = "both" if levels[0] else "max"
     filled = ax.contourf(k, c, values, levels, cmap="cividis", extend=extend)
+    if blank is not None:
+        side = np.asarray(contact) if blank == "kept" else -np.asarray(contact)
+        if side.max() > 0:
+            ax.contourf(k, c, side, [0, side.max()], colors=[FIELDS[blank]])
     if contact is not None and np.min(contact) < 0 < np.max(contact):
         ax.contour(k, c, contact, [0], colors="w", linewidths=2)
     for marker, (name, place) in zip(MARKERS, marks.items()):
         ax.plot(*place, marker, color="k", mfc="white", ms=6, ls="", label=name)
+    if blank is not None:
+        ax.fill([], [], color=FIELDS[blank], label=f"contact {blank}")
     ax.set(xscale="log", yscale="log", xlabel="stiffness $k$ (N/m)", ylabel="damping $c$ (N s/m)")
     ticks = [x for x in (100, 200, 500, 1000, 2000, 5000) if k[0] <= x <= k[-1]]
     ax.set_xticks(ticks, [str(x) for x in ticks])
@@ -148,7 +161,8 @@ def plot_margins(v, margins, asked=(), ax=None):
         Speeds to mark on the curves.
     """
     ax = axes_or_new(ax)
-    ax.axhspan(-1e3, 0, color="#fbe3d6", lw=0, zorder=0)  # of the curves only the sign counts there
+    # Of the curves only the sign counts there.
+    ax.axhspan(-1e3, 0, color=FIELDS["lost"], lw=0, zorder=0)
     for i, (name, margin) in enumerate(margins.items()):
         style = {"color": f"C{i}"}
         ax.plot(v, margin, ls=LINES[i], label=name, **style)
@@ -182,7 +196,7 @@ def plot_rough_ride(x, H, places, N, axes):
     in_the_air = (np.min(N, axis=0) <= 0).astype(float)
     inside = axes[1].get_xaxis_transform()
     axes[1].fill_between(
-        places, 0, in_the_air, transform=inside, color="#fbe3d6", lw=0, zorder=0, step="mid"
+        places, 0, in_the_air, transform=inside, color=FIELDS["lost"], lw=0, zorder=0, step="mid"
     )
     axes[1].set(ylabel="normal force (N)", ylim=(0, 1.25 * np.max(N)))
     axes[1].legend(loc="upper right", ncols=2)

@@ -101,6 +101,7 @@ def plot_measured_run(runs, delta_max, axes):
     axes[0].set(ylabel=r"$\delta/\delta_{\max}$")
     axes[1].set(ylabel="normal force (N)")
     axes[1].set_yscale("symlog", linthresh=10)
+    axes[1].set_ylim(bottom=-2)  # each curve ends where its force vanishes
     for ax in axes:
         ax.set(xlabel="position $X$ (m)")
     axes[0].legend()

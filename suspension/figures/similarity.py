@@ -5,16 +5,14 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from suspension.figures.style import COLOURS, LINES, axes_or_new
+from suspension.figures.style import COLOURS, FIELDS, LINES, axes_or_new
 
 __all__ = ["empty_axes", "plot_chart", "plot_comb", "plot_paths", "plot_vehicles", "plot_window"]
 
 SPEED = r"speed $\nu = v/\sigma\omega_0$"
 HEIGHT = r"height $\eta = h_0/(mg/2k)$"
-LOST = "#fbe3d6"
 # From weak to strong damping, of one lightness: they are read on a light and on a dark page.
 SHADES = ("#857a00", "#2e8b45", "#1a8a8a", "#3b82c4", "#8a70d6", "#c0549e")
-BOX = {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1}
 
 
 def _chart_axes(ax, nu, heights):
@@ -85,7 +83,12 @@ def plot_chart(nu, curves, limits=(), bump=None, own=None, heights=(0.03, 300), 
             _at_the_end(ax, nu, eta, label, color=style["color"], fontsize=8.5, weight=weight)
     if own is not None:
         ax.fill_between(
-            nu, np.minimum(curves[own], heights[1]), heights[1], color=LOST, lw=0, zorder=0
+            nu,
+            np.minimum(curves[own], heights[1]),
+            heights[1],
+            color=FIELDS["lost"],
+            lw=0,
+            zorder=0,
         )
         words = {"transform": ax.transAxes, "color": "0.3", "fontsize": 10, "style": "italic"}
         ax.text(0.42, 0.93, "contact lost", ha="center", **words)
@@ -203,7 +206,7 @@ def plot_window(zeta, exact, limit, lines, bump, now, closes, ax=None):
     heights = (0.3 * np.min(lines), 1.3 * np.max(limit))
     ax = _chart_axes(axes_or_new(ax), zeta, heights)
     ax.set(xlabel=r"damping $\zeta = c/\sqrt{2km}$")
-    ax.fill_between(zeta, exact, heights[0], color="#e3f1e8", lw=0, zorder=0)
+    ax.fill_between(zeta, exact, heights[0], color=FIELDS["kept"], lw=0, zorder=0)
     ax.plot(zeta, lines, color="0.35", lw=1, ls="--", label="two straight lines")
     ax.plot(zeta, limit, color="C0", ls="-.", label="with the spring")
     ax.plot(zeta, exact, color="k", lw=2.4, label="exact")
@@ -219,37 +222,37 @@ def plot_window(zeta, exact, limit, lines, bump, now, closes, ax=None):
     return ax
 
 
-def plot_vehicles(nu, curves, paths, heights=(0.003, 8), ax=None):
-    """Vehicles that cross a bump, over the chart of a single wheel (j = 1).
+def plot_vehicles(rides, ax=None):
+    """Vehicles that cross an obstacle each, a row for each over the speed.
 
     Parameters
     ----------
-    nu : ndarray, shape (n,)
-    curves : dict of float to ndarray, shape (n,)
-        For each damping ratio the highest bump over the sag.
-    paths : dict of str to (ndarray, float, ndarray)
-        For each vehicle its speeds, shape (i,), the height of its bump, and whether its own damping
-        loses contact, shape (i,).
-    heights : pair of float
-        Ends of the vertical axis.
+    rides : dict of str to (Regimes, float)
+        For each vehicle by name where contact is kept and lost, km/h, and the speed above which a
+        rigid wheel's own mass lifts it, nan if its mass is not known.
     """
-    ax = _chart_axes(axes_or_new(ax), nu, heights)
-    for i, (zeta, eta) in enumerate(curves.items()):
-        ax.plot(nu, eta, color=str(0.78 - 0.13 * i), lw=1.2, zorder=2)
-        style = {"color": str(0.55 - 0.1 * i), "fontsize": 8}
-        _at_the_end(ax, nu, eta, rf"$\zeta$ = {zeta:g}", **style)
-    by_height = sorted(paths.items(), key=lambda item: item[1][1])
-    for rank, (name, (speeds, eta, lost)) in enumerate(by_height):
-        level = np.full(len(speeds), eta)
-        kept = np.where(lost, np.nan, level)
-        gone = np.where(lost, level, np.nan)
-        ends = {"solid_capstyle": "butt", "zorder": 3}
-        ax.plot(speeds, kept, color=COLOURS[0], lw=4, label="kept" if not rank else None, **ends)
-        ax.plot(speeds, gone, color=COLOURS[1], lw=4, ls=LINES[5], zorder=3)
-        left = rank % 2 == 0  # neighbours in height are named on different sides
-        place = speeds[0] / 1.12 if left else speeds[-1] * 1.12
-        side = "right" if left else "left"
-        ax.text(place, eta, name, ha=side, va="center", fontsize=8, bbox=BOX, zorder=4)
-    ax.plot([], [], color=COLOURS[1], lw=4, ls=LINES[5], label="lost")
-    ax.legend(loc="lower left")
+    ax = axes_or_new(ax)
+    bar = {"lw": 7, "solid_capstyle": "butt", "zorder": 2}
+    for row, (contact, heavy) in enumerate(rides.values()):
+        for start, end in contact.spans(lost=False):
+            ax.plot([start, end], [row, row], color=COLOURS[0], **bar)
+        for start, end in contact.spans(lost=True):
+            ax.plot([start, end], [row, row], color=COLOURS[1], **bar)
+        ax.plot(contact.critical, np.full(len(contact.critical), row), "kD", ms=6, zorder=4)
+        for v in contact.critical:
+            ax.annotate(
+                f"{v:.2g}", (v, row), (0, 7), textcoords="offset points", ha="center", fontsize=8
+            )
+        if heavy <= contact.edges[-1]:
+            ax.plot(heavy, row, "kx", ms=7, mew=2, zorder=5)
+    for colour, name in zip(COLOURS, ("kept", "lost")):
+        ax.plot([], [], color=colour, lw=7, label=name)
+    ax.plot([], [], "kD", ms=6, ls="", label="critical speed")
+    ax.plot([], [], "kx", ms=7, mew=2, ls="", label="wheel too heavy from here on")
+    ax.set(xscale="log", xlabel="speed (km/h)", ylim=(len(rides) - 0.4, -0.7))
+    ax.set_yticks(range(len(rides)), list(rides), fontsize=8)
+    ax.tick_params(axis="y", length=0)
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    ax.grid(axis="y", visible=False)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.4, -0.2), ncols=4)
     return ax

@@ -2,9 +2,10 @@
 
 import matplotlib.pyplot as plt
 
-__all__ = ["COLOURS", "LINES", "MARKERS", "axes_or_new"]
+__all__ = ["COLOURS", "FIELDS", "LINES", "MARKERS", "axes_or_new"]
 
 COLOURS = ("C0", "C1")  # rear, front
+FIELDS = {"kept": "#cfe6f5", "lost": "#fbe3d6"}  # tones that the page has for the dark, too
 LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))  # rear, front, others
 MARKERS = "o^sDvPX*"
 

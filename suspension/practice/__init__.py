@@ -38,6 +38,7 @@ from suspension.practice.stability import (
     check_stability_function,
 )
 from suspension.practice.steps import (
+    check_between,
     check_integrate,
     check_locate,
     check_next_step,
@@ -47,6 +48,7 @@ from suspension.practice.steps import (
 __all__ = [
     "Feedback",
     "check_accelerations",
+    "check_between",
     "check_cn_step",
     "check_crank_nicolson",
     "check_first_loss",

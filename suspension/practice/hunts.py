@@ -31,11 +31,11 @@ def slopes(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k1, t + dt / 2)
-        k4 = g(w + dt * k3, t + dt)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g1, t + dt / 2)
+        g4 = g(w + dt * g3, t + dt)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -45,11 +45,11 @@ def clock(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k2, t + dt / 2)
-        k4 = g(w + dt * k3, t)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g2, t + dt / 2)
+        g4 = g(w + dt * g3, t)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -59,11 +59,11 @@ def calendar(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + dt / 2 * k2, t + dt / 2)
-        k4 = g(w + dt * k3, t + dt)
-        W[:, j + 1] = w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + dt / 2 * g2, t + dt / 2)
+        g4 = g(w + dt * g3, t + dt)
+        W[:, j + 1] = w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)
     return W, T
 
 
@@ -73,12 +73,12 @@ def embedded(g, w0, dt, tfinal):
     W[:, 0] = w0
     for j in range(len(T) - 1):
         w, t = W[:, j], T[j]
-        k1 = g(w, t)
-        k2 = g(w + dt / 2 * k1, t + dt / 2)
-        k3 = g(w + 3 / 4 * dt * k2, t + 3 / 4 * dt)
-        new = w + dt / 9 * (2 * k1 + 3 * k2 + 4 * k3)
-        k4 = g(new, t + dt)
-        error = dt / 72 * (-5 * k1 + 6 * k2 + 8 * k3 - 9 * k4)
+        g1 = g(w, t)
+        g2 = g(w + dt / 2 * g1, t + dt / 2)
+        g3 = g(w + 3 / 4 * dt * g2, t + 3 / 4 * dt)
+        new = w + dt / 9 * (2 * g1 + 3 * g2 + 4 * g3)
+        g4 = g(new, t + dt)
+        error = dt / 72 * (-5 * g1 + 6 * g2 + 8 * g3 - 9 * g4)
         W[:, j + 1] = new - error
     return W, T
 
@@ -86,8 +86,8 @@ def embedded(g, w0, dt, tfinal):
 # The integrator, the order it should have, and what its wrong line has in it.
 _HUNTS = {
     "trapezoid": (trapezoid, 2, "F(T[j]) + F(T[j])"),
-    "slopes": (slopes, 4, "k3 = g(w + dt / 2 * k1"),
-    "clock": (clock, 4, "k4 = g(w + dt * k3, t)"),
+    "slopes": (slopes, 4, "g3 = g(w + dt / 2 * g1"),
+    "clock": (clock, 4, "g4 = g(w + dt * g3, t)"),
     "calendar": (calendar, 4, "np.linspace"),
     "embedded": (embedded, 3, "new - error"),
 }

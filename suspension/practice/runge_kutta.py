@@ -59,28 +59,28 @@ def _scaled_once_too_often(g, w, t, dt):
 
 
 STEPS = {
-    "Does your k2 go a full step, where half a step is meant?": stages(((1, 1), (2, HALF), (3, 1))),
-    "Does your k3 use k1? It probes along k2.": stages(((1, HALF), (1, HALF), (3, 1))),
-    "Does your k4 go along k2? It probes along k3.": stages(((1, HALF), (2, HALF), (2, 1))),
-    "Does your k4 go along k1? It probes along k3.": stages(((1, HALF), (2, HALF), (1, 1))),
-    "Does your k4 go half a step only? It probes at the end.": (
+    "g2 seems to go a full step. It should go half a step.": stages(((1, 1), (2, HALF), (3, 1))),
+    "g3 seems to use g1. It should use g2.": stages(((1, HALF), (1, HALF), (3, 1))),
+    "g4 seems to use g2. It should use g3.": stages(((1, HALF), (2, HALF), (2, 1))),
+    "g4 seems to use g1. It should use g3.": stages(((1, HALF), (2, HALF), (1, 1))),
+    "g4 seems to go half a step. It should go a full step.": (
         stages(((1, HALF), (2, HALF), (3, HALF))),
         stages(((1, HALF), (2, HALF), (3, HALF)), (HALF, HALF, HALF)),
     ),
-    "Does your k3 go a full step, where half a step is meant?": (
+    "g3 seems to go a full step. It should go half a step.": (
         stages(((1, HALF), (2, 1), (3, 1))),
         stages(((1, HALF), (2, 1), (3, 1)), (HALF, 1, 1)),
     ),
     "Are all slopes taken at the time t? Those in the middle belong to t + dt/2, the last to t "
     "+ dt.": (stages(times=(0, 0, 0))),
-    "Are k2 and k3 taken at the time t? They belong to t + dt/2.": stages(times=(0, 0, 1)),
-    "Is k2 taken at the time t? It belongs to t + dt/2.": stages(times=(0, HALF, 1)),
-    "Is k3 taken at the time t? It belongs to t + dt/2.": stages(times=(HALF, 0, 1)),
-    "Is k4 taken at the time t + dt/2, or t? It belongs to the end, t + dt.": (
+    "Are g2 and g3 taken at the time t? They belong to t + dt/2.": stages(times=(0, 0, 1)),
+    "Is g2 taken at the time t? It belongs to t + dt/2.": stages(times=(0, HALF, 1)),
+    "Is g3 taken at the time t? It belongs to t + dt/2.": stages(times=(HALF, 0, 1)),
+    "Is g4 taken at the time t + dt/2, or t? It belongs to the end, t + dt.": (
         stages(times=(HALF, HALF, HALF)),
         stages(times=(HALF, HALF, 0)),
     ),
-    "Are k2 and k3 taken at the time t + dt? They belong to t + dt/2.": stages(times=(1, 1, 1)),
+    "Are g2 and g3 taken at the time t + dt? They belong to t + dt/2.": stages(times=(1, 1, 1)),
     "Are all four weights 1/4? The two slopes in the middle count twice: 1, 2, 2, "
     "1 over 6.": stages(weights=(1 / 4,) * 4),
     "Do the weights sum to 1? A mean of 1, 2, 2, 1 is divided by 6.": (
@@ -96,10 +96,10 @@ STEPS = {
         _twice_scaled,
         _scaled_once_too_often,
     ),
-    "This is the explicit Euler method: is the step taken along k1 alone?": stages(
+    "This is the explicit Euler method: is the step taken along g1 alone?": stages(
         weights=(1, 0, 0, 0)
     ),
-    "This is the midpoint rule, the step is taken along k2 alone: where are k3 and k4?": stages(
+    "This is the midpoint rule, the step is taken along g2 alone: where are g3 and g4?": stages(
         weights=(0, 1, 0, 0)
     ),
     "Does the sum start from something other than w? It adds to the state at the start of the "

@@ -16,7 +16,13 @@ from suspension.practice.feedback import (
     several,
 )
 
-__all__ = ["check_integrate", "check_locate", "check_next_step", "check_pair_step"]
+__all__ = [
+    "check_between",
+    "check_integrate",
+    "check_locate",
+    "check_next_step",
+    "check_pair_step",
+]
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 
@@ -151,15 +157,15 @@ PAIRS = {
     "The step goes on with the second-order result: once both are there, take the better one.": (
         pair(advance="low")
     ),
-    "k4 is taken at w + dt k3: it is the slope at the new w, which the next "
+    "g4 is taken at w + dt g3: it is the slope at the new w, which the next "
     "step begins with.": pair(last="old"),
-    "k4 is taken at the time t: the new w belongs to t + dt.": pair(end=0),
-    "All slopes are taken at the time t: k2 belongs to t + dt/2, k3 to t + 3/4 dt, k4 to t + "
+    "g4 is taken at the time t: the new w belongs to t + dt.": pair(end=0),
+    "All slopes are taken at the time t: g2 belongs to t + dt/2, g3 to t + 3/4 dt, g4 to t + "
     "dt.": pair(times=0),
-    "k3 probes along k1: it goes 3/4 dt along k2.": pair(
+    "g3 seems to use g1. It should use g2, over 3/4 dt.": pair(
         slopes=((0, 1 / 2, 1 / 2), (0, 3 / 4, 3 / 4))
     ),
-    "k3 goes half a step: it goes 3/4 dt along k2.": (
+    "g3 seems to go half a step. It should go 3/4 dt.": (
         pair(slopes=((0, 1 / 2, 1 / 2), (1, 1 / 2, 1 / 2))),
         pair(slopes=((0, 1 / 2, 1 / 2), (1, 1 / 2, 3 / 4))),
     ),
@@ -175,7 +181,7 @@ PAIRS = {
         lambda new, error, w, dt: (new, new - error)
     ),
     "State and error have changed places.": _changed(lambda new, error, w, dt: (error, new)),
-    "k4 does not count in the error: the second-order result takes 1/8 of it.": pair(
+    "g4 does not count in the error: the second-order result takes 1/8 of it.": pair(
         low=(7 / 24, 1 / 4, 1 / 3, 0)
     ),
 }
@@ -221,7 +227,7 @@ def check_pair_step(pair_step, rng):
         )
     raise Wrong(
         "The step is of order 3, but its error is not the one of the second-order result: is "
-        "it dt times the difference of both rows of weights, k4 included?"
+        "it dt times the difference of both rows of weights, g4 included?"
     )
 
 
@@ -496,3 +502,87 @@ def check_locate(locate, rng):
             "zero near "
             f"{wanted:.4g}. Is the interval halved until it is shorter than roundoff?"
         )
+
+
+def _between(t, T, W, S, index=None, scaled=1, second=-1, turned=False, slopes=1, column=0):
+    """The cubic through both ends of the step that holds t, or with something in it changed."""
+    T, last = np.asarray(T), len(T) - 2
+    j = int(np.searchsorted(T, t, side="right")) - 1 + column
+    j = min(max(j, 0), last) if index is None else index
+    dt = T[j + 1] - T[j]
+    u = (t - T[j]) / dt
+    u = 1 - u if turned else u
+    bend = (1 - u) * S[:, j] + second * u * S[:, j + 1]
+    ends = (1 - u) ** 2 * (1 + 2 * u) * W[:, j] + u**2 * (3 - 2 * u) * W[:, j + 1]
+    return ends + slopes * dt**scaled * u * (1 - u) * bend
+
+
+def _straight(t, T, W, S):
+    return np.array([np.interp(t, T, row) for row in W])
+
+
+def _beginning(t, T, W, S):
+    return W[:, max(int(np.searchsorted(T, t, side="right")) - 1, 0)]
+
+
+def _nearest(t, T, W, S):
+    return W[:, int(np.argmin(np.abs(np.asarray(T) - t)))]
+
+
+def _along_slope(t, T, W, S):
+    j = min(int(np.searchsorted(T, t, side="right")) - 1, len(T) - 2)
+    return W[:, j] + (t - T[j]) * S[:, j]
+
+
+BETWEENS = {
+    "This is a straight line between both ends: the slopes say how the state bends.": _straight,
+    "This is the state at the beginning of the step.": (
+        _beginning,
+        lambda t, T, *W_S: _beginning(min(t, T[-2]), T, *W_S),
+    ),
+    "This is the state at the nearest time: between two times it is another one.": _nearest,
+    "This goes on along the slope at the beginning, and misses the state at the end.": _along_slope,
+    "The slopes are not multiplied by the length of the step.": (
+        lambda *case: _between(*case, scaled=0)
+    ),
+    "The slope at the end counts with the wrong sign.": (lambda *case: _between(*case, second=1)),
+    "The slopes are left out: the cubic begins and ends without one.": (
+        lambda *case: _between(*case, slopes=0)
+    ),
+    "Beginning and end have changed places: u is 0 at the beginning.": (
+        lambda *case: _between(*case, turned=True)
+    ),
+    "This is the cubic of the step after the one that holds t.": (
+        lambda *case: _between(*case, column=1)
+    ),
+    "This is the cubic of the step before the one that holds t.": (
+        lambda *case: _between(*case, column=-1)
+    ),
+    "This is the cubic of the first step, wherever t is.": (lambda *case: _between(*case, index=0)),
+}
+
+
+@check(
+    "between(t, T, W, S)",
+    "the cubic has the states and the slopes of both ends of its step.",
+)
+def check_between(between, rng):
+    """Whether ``between(t, T, W, S)`` is the state at a time between two columns of W."""
+    T = np.cumsum(np.append(0, rng.uniform(0.1, 0.4, 6)))
+    found = problem(rng)
+    W = np.transpose([found.exact(t) for t in T])
+    S = np.transpose([found.g(w, t) for w, t in zip(W.T, T)])
+    inside = T[:-1] + rng.uniform(0.1, 0.9, 6) * np.diff(T)
+    cases = [(t, T, W, S) for t in (*inside, T[0], T[2], T[-1])]
+
+    def fails(answer, t, T, W, S):
+        at = [j for j, time in enumerate(T) if time == t]
+        if at:
+            return f"At T[{at[0]}] itself the state should be W[:, {at[0]}], and it is another one."
+        return (
+            "Where T, W and S belong to a cubic in t, the state should be that of the cubic. Does "
+            "yours have the states W and the slopes S at both ends of the step?"
+        )
+
+    means = "the state, one number for each row of W"
+    compare(between, cases, _between, BETWEENS, means, fails)

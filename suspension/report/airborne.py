@@ -28,6 +28,7 @@ __all__ = [
     "geometry_table",
     "models",
     "order_caption",
+    "rules_apart",
     "who_flies",
 ]
 
@@ -198,6 +199,20 @@ def models(flights, relaxed, robot):
             }
         )
     return table(rows) if rows else "No wheel flies at these speeds, so the two rules are one."
+
+
+def rules_apart(flights, relaxed):
+    """How far the two models differ at the asked speeds, a sentence; arguments as in `models`."""
+    moved = []
+    for v, flight in flights.items():
+        pairs = list(zip(flight.events, relaxed[v].events))
+        if len(flight.events) != len(relaxed[v].events) or any(a[:2] != b[:2] for a, b in pairs):
+            return f"At {v:g}{SPACE}m/s they do not even have the same switches."
+        moved += [abs(a.t - b.t) for a, b in pairs]
+    if not moved:
+        return "At the asked speeds no wheel flies, so the two rules are one."
+    within = "a microsecond" if max(moved) < 1e-6 else quantity(1e3 * max(moved), "ms", 2)
+    return f"At the asked speeds their switches agree to {within}."
 
 
 def _bound(x):

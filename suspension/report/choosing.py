@@ -10,6 +10,7 @@ import numpy as np
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
+    Caption,
     count,
     fixed,
     join,
@@ -26,18 +27,22 @@ __all__ = [
     "between",
     "choice_table",
     "conclusions",
+    "contact_map",
     "drive_links",
     "farthest",
+    "game_note",
     "measured_length",
+    "price_map",
     "rest_note",
     "robust_table",
+    "room_note",
 ]
 
 ALMOST = 0.2  # of a logarithm: a fifth more or less
-SHOWN = 0.005  # N; a margin closer to zero is shown as zero
+SHOWN = 0.005  # what two decimals do not show: a margin in N, a compression in delta_max
 
 
-def farthest(stiffest, strongest, asked):
+def farthest(stiffest, strongest, asked, ends):
     """Up to which springs and dampers contact can be kept.
 
     Parameters
@@ -45,20 +50,86 @@ def farthest(stiffest, strongest, asked):
     stiffest, strongest : suspension.choice.Choice or None
     asked : sequence of float
         Speeds, m/s.
+    ends : (float, float)
+        The stiffest springs, N/m, and the strongest dampers, N s/m, of the map.
     """
     if stiffest is None:
         return f"**Nowhere** on this map is contact kept at {speed_list(asked)}."
-    k, c = quantity(stiffest.robot.k1, "N/m", 4), quantity(strongest.robot.c1, "N s/m", 4)
-    other = quantity(stiffest.robot.c1, "N s/m", 4)
+    k, c = stiffest.robot.k1, strongest.robot.c1
+    soft, weak = (x < 0.999 * end for x, end in zip((k, c), ends, strict=True))
+    where = [word for word, so in (("springs are soft", soft), ("dampers weak", weak)) if so]
+    limits = [quantity(*x) for x, so in (((k, "N/m"), soft), ((c, "N s/m"), weak)) if so]
+    if not where:
+        return (
+            "**Not only where springs are soft and dampers weak**: at "
+            f"{speed_list(asked)} contact can be kept with the stiffest springs of this map, and "
+            "with its strongest dampers."
+        )
+    one = where[0].replace("dampers weak", "dampers are weak")
+    none = {(True, True): "stiffer spring and no stronger damper", (True, False): "stiffer spring"}
     return (
-        f"**In a region that ends at {k} and {c}:** no stiffer spring and no stronger damper of "
-        f"this map keeps contact at {speed_list(asked)}. With the stiffest "
-        f"springs the dampers must be of {other}."
+        f"**Where {join(where) if len(where) > 1 else one}**: up to {join(limits)}. No "
+        f"{none.get((soft, weak), 'stronger damper')} of this map keeps contact at "
+        f"{speed_list(asked)}."
+    )
+
+
+def contact_map(kept, asked, names):
+    """Caption of the two maps of contact.
+
+    Parameters
+    ----------
+    kept : array_like of bool
+        Which suspensions of the map keep contact at all asked speeds.
+    asked : sequence of float
+        m/s.
+    names : sequence of str
+        Of the suspensions that are marked.
+    """
+    return Caption(
+        "The worst over the asked speeds, for every stiffness and damping: the least margin, and "
+        "the part of the way that a wheel spends in the air. "
+        f"{_line(kept, asked)} Marks, of which more below: {join(list(names))}.",
+        f"Two maps over stiffness and damping on logarithmic axes. {_parted(kept)}",
+    )
+
+
+def price_map(kept, asked):
+    """Caption of the two maps of what a suspension costs; arguments as in `contact_map`."""
+    return Caption(
+        "The same suspensions: largest acceleration of the body, and largest compression of a "
+        f"spring. {_line(kept, asked)}",
+        "Two maps over stiffness and damping on logarithmic axes. Acceleration is least where "
+        "springs are soft and dampers weak, compression where springs are stiff and dampers "
+        f"strong. {_parted(kept)}",
+    )
+
+
+def _line(kept, asked):
+    """What the white line of a map says."""
+    kept, speeds = np.asarray(kept), count(len(asked), "speed")
+    if kept.all():
+        return f"Contact is kept at all {speeds} by every suspension of the map."
+    if not kept.any():
+        return f"No suspension of the map keeps contact at all {speeds}."
+    return (
+        "White line: where the least margin is zero. To its left and below it, both wheels keep "
+        f"contact at all {speeds}."
+    )
+
+
+def _parted(kept):
+    kept = np.asarray(kept)
+    if kept.all() or not kept.any():
+        return f"No line is drawn: contact is {'kept' if kept.all() else 'lost'} everywhere."
+    return (
+        "A white line parts the suspensions that keep contact, with soft springs and weak dampers, "
+        "from those that lose it."
     )
 
 
 def beaten(robot, better):
-    """Whether the present suspension is on the front of best compromises.
+    """Whether any suspension of the map is better than the present one in everything.
 
     Parameters
     ----------
@@ -66,12 +137,13 @@ def beaten(robot, better):
     better : sequence of (float, float)
         Suspensions that are better in all three criteria, k and c, N/m and N s/m, best first.
     """
-    present = f"The present suspension, {_named(robot.k1, robot.c1)},"
+    present = f"the present one, {_named(robot.k1, robot.c1)},"
     if not len(better):
-        return f"**No other.** {present} is on the front: none of the map is better in all three."
+        return f"**Not one.** No suspension of the map is better than {present} in all three."
+    example = ", for example," if len(better) > 1 else ""
     return (
-        f"**{count(len(better), 'suspension').capitalize()}.** {present} is not on the front: "
-        f"{_named(*better[0])}, for example, are better in all three."
+        f"**{count(len(better), 'suspension').capitalize()}.** {_named(*better[0])}{example} are "
+        f"better than {present} in all three."
     )
 
 
@@ -140,6 +212,53 @@ def rest_note(fit, robot):
     )
 
 
+def game_note(robot, fit):
+    """With which robot the game of the laboratory is played, if it is not quite the one at hand.
+
+    Parameters
+    ----------
+    robot : Robot
+    fit : suspension.springs.SpringFit
+        Of its springs.
+    """
+    words = []
+    if robot.twin != robot:
+        words.append(
+            "The robot is not symmetric. The game is played with its **symmetric twin**, which has "
+            "the means of both axles."
+        )
+    if not fit.linearity().linear:
+        words.append(
+            "The readings contradict a spring without preload and curvature. The game is played "
+            f"with a straight spring of its stiffness at zero, {quantity(fit.stiffness, 'N/m')}."
+        )
+    return " ".join(words)
+
+
+def room_note(asked, flown, pressed, limit):
+    """Where the largest compression comes from, if not from a run in which both wheels press.
+
+    Parameters
+    ----------
+    asked : sequence of float
+        Speeds, m/s.
+    flown, pressed : array_like, shape (speeds,)
+        Largest compression of a spring on a ground that only pushes, m, and that up to the first
+        loss of contact.
+    limit : float
+        Largest displacement at which the spring was measured, m.
+    """
+    flown, pressed = np.asarray(flown) / limit, np.asarray(pressed) / limit
+    most = int(np.argmax(flown))
+    if flown[most] < pressed.max() + SHOWN:
+        return ""
+    return (
+        f"As it is, the robot reaches {fixed(flown[most], 2)} at {asked[most]:g}{SPACE}m/s, after "
+        f"a wheel has left the ground; while both wheels press it is {fixed(pressed.max(), 2)} at "
+        "most."
+    )
+
+
 def measured_length(stiffest, limit):
     """Whether a spring that carries the robot within its measured range can keep contact.
 
@@ -155,7 +274,7 @@ def measured_length(stiffest, limit):
     robot = stiffest.robot
     rest = -robot.equilibrium[0] / limit
     words = (
-        f"On the stiffest springs with contact, {quantity(robot.k1, 'N/m', 4)}, the robot rests at "
+        f"On the stiffest springs with contact, {quantity(robot.k1, 'N/m')}, the robot rests at "
         rf"{fixed(rest, 2)} $\delta_{{\max{{}}}}$: "
     )
     if rest <= 1:

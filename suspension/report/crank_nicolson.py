@@ -13,13 +13,12 @@ from suspension.report.words import (
     number,
     percent,
     quantity,
-    seconds,
 )
 
 __all__ = [
+    "coarse",
     "coarse_caption",
     "eigenvalues",
-    "frame_caption",
     "halving",
     "matrix",
     "modes",
@@ -32,6 +31,8 @@ APPRECIABLE = 0.01  # a change by less than this part of the largest pitch is no
 AS_EXPECTED = 0.05  # how far, relatively, an observed factor may be from the promised one
 ROUNDOFF = 1e-9  # part of the largest error, below which an error is none
 TOGETHER = 0.02  # an error by less than this part of the largest pitch cannot be seen
+ABOUT = 0.05  # a rate that is wrong by less than this part of itself is about right
+HARDLY = 0.2  # below this part of the true rate, a swing hardly dies away
 
 
 def matrix(robot, fit):
@@ -92,26 +93,85 @@ def road_caption(speeds):
     return Caption(text, alt)
 
 
+def coarse(robot, scheme, dt):
+    """What a long step makes of the pitch: a bold sentence, and the numbers behind it.
+
+    Parameters
+    ----------
+    robot : Robot
+    scheme : Scheme
+    dt : float
+        Step, s.
+    """
+    z = _pitch(robot) * dt
+    R = complex(scheme.stability_function(z))
+    step, kept, left = f"{dt:g}{SPACE}s", percent(np.exp(z.real)), percent(abs(R))
+    decay, dies = np.log(abs(R)), z.real
+    if z.imag == 0:
+        flips = R.real < 0
+        head = "flips its sign in every step" if flips else f"creeps back {_pace(decay, dies)}"
+        return (
+            f"**It {head}.** The robot's pitch does not swing. In {step} the faster part of it "
+            f"shrinks to {kept}, the computed one to {left}{' and flips' if flips else ''}."
+        )
+    if dies > -1e-9 * abs(z):
+        end = "never dies away, as it should not"
+    elif decay > HARDLY * dies:
+        end = "hardly dies away"
+    else:
+        end = f"dies away {_pace(decay, dies)}"
+    turned = abs(np.angle(R))
+    whose = "the mode that pitches most" if _is_mixed(robot) else "the robot's pitch"
+    return (
+        f"**It swings {_pace(turned, z.imag)}, and {end}.** In {step} {whose} makes "
+        f"{_swings(z.imag)} and keeps {kept} of its size; the computed one makes "
+        f"{_swings(turned)} and keeps {left}."
+    )
+
+
+def _pace(computed, true):
+    """How fast something goes, beside how fast it should go."""
+    ratio = computed / true
+    if abs(ratio - 1) < ABOUT:
+        return "as it should"
+    return "too slowly" if ratio < 1 else "too fast"
+
+
+def _swings(angle):
+    """An angle, rad, in swings."""
+    turns = angle / (2 * np.pi)
+    return f"{number(turns, 2)} {'of a swing' if turns < 1 else 'swings'}"
+
+
+def _is_mixed(robot):
+    """Whether both modes make up the pitch."""
+    return bool(robot.A[3, 0] or robot.A[3, 1])
+
+
+def _pitch(robot):
+    """Eigenvalue of the pitch, 1/s; of a robot that mixes its modes, of the one that pitches most.
+
+    Of a pair the one with a positive imaginary part, of two real ones the faster.
+    """
+    if _is_mixed(robot):
+        least = robot.heave_share.min()
+        candidates = robot.eigenvalues[robot.heave_share < least + 1e-9]
+    else:
+        candidates = np.linalg.eigvals(robot.A[2:, 2:]).astype(complex)
+    return max(candidates, key=lambda z: (z.imag, abs(z)))
+
+
 def coarse_caption(run, exact):
     """Caption of the pitch by very long steps beside the `exact` one at their times, rad."""
     many = count(len(run.T) - 1, "step")
     text = (
-        f"The pitch in {many} of {quantity(run.dt, 's')} by {run.scheme.name} (dots, joined for "
-        "the eye), and the exact one (line)."
+        f"The pitch in {many} of {run.dt:g}{SPACE}s by {run.scheme.name} (dots, joined for the "
+        "eye), and the exact one (line)."
     )
     off = np.abs(run.W[2] - exact).max() > TOGETHER * np.abs(exact).max()
     lie = "do not lie on it" if off else "lie on it"
     alt = f"Pitch against time: the exact curve, and {many} by {run.scheme.name}, whose dots {lie}."
     return Caption(text, alt)
-
-
-def frame_caption(run, t):
-    """Caption of the robot with its front wheel on the top of the bump."""
-    text = (
-        f"The robot at {run.v:g}{SPACE}m/s with its front wheel on the top of the bump, "
-        f"{seconds(t, run.dt)}{SPACE}s after the start."
-    )
-    return Caption(text, "The robot in true proportions, with its front wheel on top of the bump.")
 
 
 def halving(runs, exact):
@@ -130,8 +190,8 @@ def halving(runs, exact):
     yardstick = ""
     if pitch.min() < 0 < pitch.max():
         yardstick = (
-            " The first is the yardstick: the pitch swings through zero, and beside a value near "
-            "zero every change looks large."
+            " The first counts: the pitch swings through zero, and beside a value near zero any "
+            "change looks large."
         )
     return (
         f"*Does it change appreciably? {answer}*: halving the step changes "
@@ -177,9 +237,9 @@ def phase_error(robot, run, exact):
         rf"the largest error of the run with $\Delta t$ = {run.dt:g}{SPACE}s is "
         f"{quantity(error.max(), 'rad')}, at {fixed(run.T[error.argmax()], 2)}{SPACE}s"
     )
-    if robot.A[3, 0] or robot.A[3, 1]:
+    if _is_mixed(robot):
         return f"Here two modes make up the pitch, each with a lag and a decay of its own: {found}."
-    pitch = max(np.linalg.eigvals(robot.A[2:, 2:]), key=np.imag)
+    pitch = _pitch(robot)
     if pitch.imag == 0:
         return f"Here the pitch does not swing: it creeps back, and {found}."
     left = percent(-2 * pitch.real / pitch.imag)

@@ -42,22 +42,21 @@ BETRAYED = "../notebooks/01-regression.ipynb#what-would-betray-a-wrong-model"
 
 def source_sentence(data):
     """Which file, how many readings, and whether they are invented."""
-    origin = f"The file is `{data.attrs['source']}`, {count(len(data), 'reading')}. "
+    origin = f"The file `{data.attrs['source']}` holds {count(len(data), 'reading')}. "
     if is_synthetic(data):
         return origin + (
-            "**These data are synthetic:** they stand in for measurements that are not public, "
-            "and every number below that follows from them is a number about an invented spring."
+            "**These data are synthetic:** they stand in for measurements that are not public. "
+            "Every number that follows from them is about an invented spring."
         )
     return origin + "These are not the synthetic data this book ships with."
 
 
 def read_sentence(data, fit):
-    """What was read: file, points, ranges, unit, and what the reader noticed."""
+    """What was read: ranges, units, and what the reader noticed."""
     x, force = data["delta_over_delta_max"], data["force"]
     sentence = (
-        f"Read from `{data.attrs['source']}`: {count(len(data), 'reading')}, "
-        f"$\\delta/\\delta_{{\\max}}$ from {_end(x.min())} to {_end(x.max())} "
-        f"with $\\delta_{{\\max}}$ = {quantity(1000 * fit.delta_max, 'mm')}, forces from "
+        f"The displacements $\\delta/\\delta_{{\\max}}$ go from {_end(x.min())} to {_end(x.max())} "
+        f"with $\\delta_{{\\max}}$ = {quantity(1000 * fit.delta_max, 'mm')}, the forces from "
         f"{_end(force.min())} to {_end(force.max())}{SPACE}N for the pair of springs."
     )
     notes = data.attrs.get("notes", ())
@@ -142,7 +141,7 @@ def hindsight(data, fit):
     low, high = fit.stiffness_interval()
     where = "inside" if low <= TRUE_STIFFNESS <= high else "outside"
     return (
-        "In hindsight, which only synthetic data allow: the true stiffness, "
+        "Only synthetic data allow a last test, in hindsight: the true stiffness, "
         f"{quantity(TRUE_STIFFNESS, 'N/m')}, is {where} the interval of Answer 1(ii)."
     )
 
@@ -193,7 +192,8 @@ def _stiffness(value, error):
 
 
 def _interval(stiffness):
-    return interval(*stiffness.interval(), decimals=_decimals_for(stiffness.error))
+    ends = interval(*stiffness.interval(), decimals=_decimals_for(stiffness.error))
+    return ends.replace(" ", SPACE)
 
 
 def _static(fit, load):
@@ -213,8 +213,7 @@ def stiffness_sentence(fit, load):
         The force that one pair of springs carries at rest, N.
     """
     parts = [
-        "Question 1 asks for the slope of the parabola at zero, where the spring carries nothing.",
-        "The data do not contradict a line through the origin: who accepts it takes its slope."
+        "The data do not contradict a line through the origin; one may take its slope."
         if fit.linearity().linear
         else "The data contradict a line through the origin, so the slope of the best such line is "
         "no more than a mean over the measured range.",
@@ -226,14 +225,12 @@ def stiffness_sentence(fit, load):
 
 def _at_rest(fit, load):
     tangent = fit.tangent(load)
-    half = f"half of its weight, {quantity(load, 'N')}"
+    half = f"half of the weight ({quantity(load, 'N')})"
     if tangent is None:
         return f"The fitted parabola bends down before it carries {half}: it has no tangent there."
-    extrapolated = ", an extrapolation" if "outside" in _static(fit, load) else ""
-    return (
-        f"The robot swings about its rest, where each pair carries {half}; the tangent there"
-        f"{extrapolated} is {_compared(tangent, fit.slope)}."
-    )
+    extrapolated = ", an extrapolation," if "outside" in _static(fit, load) else ""
+    compared = _compared(tangent, fit.slope)
+    return f"The tangent at {half}{extrapolated} is {compared}."
 
 
 def _compared(tangent, slope):
@@ -257,9 +254,9 @@ def caution(fit, subject="The interval"):
     neighbours = fit.neighbours
     if not neighbours.suspicious:
         return ""
-    suppose, they = ("suppose", "they") if subject.endswith("s") else ("supposes", "it")
+    assume, they = ("assume", "they") if subject.endswith("s") else ("assumes", "it")
     return (
-        f"{subject} {suppose} independent errors, but "
+        f"{subject} {assume} independent errors, but "
         f"[neighbouring residuals correlate]({BETRAYED}) with "
         f"{fixed(neighbours.correlation, 2)}: {they} cannot be relied on."
     )

@@ -1,10 +1,13 @@
 """The experiments of the page with the sliders, in words that fit the spring."""
 
+import numpy as np
+
 from suspension.frequency import speed_in_step
 from suspension.problem import SPEEDS
-from suspension.report.words import SPACE, fixed, join, number, speed_list
+from suspension.report.words import SPACE, fixed, join, number, quantity, ranges, speed_list
+from suspension.schemes import CRANK_NICOLSON, RK4
 
-__all__ = ["experiments", "presets"]
+__all__ = ["answers", "experiments", "presets"]
 
 SLOW, MIDDLE, FAST, _ = SPEEDS
 
@@ -30,6 +33,79 @@ def experiments(robot, critical, flips, limit, slider):
     if swing:
         texts.append(swing)
     return "\n".join(f"{i}. {text}" for i, text in enumerate(texts, 1))
+
+
+def answers(robot, regimes, flips, soft_lost, limit, slider):
+    """What the experiments show, a numbered list.
+
+    Parameters
+    ----------
+    robot, flips, limit, slider
+        As for `experiments`.
+    regimes : suspension.contact.Regimes
+        Where contact is kept and lost within the slider's range of speeds.
+    soft_lost : bool
+        Whether contact is lost at the third asked speed with the softest spring of the slider.
+    """
+    texts = [
+        _safer(regimes),
+        _leaves_first(robot, limit, slider),
+        _another_answer(robot, max(slider)),
+        _stiffness(flips, soft_lost),
+    ]
+    speed = speed_in_step(robot)
+    if speed is not None:
+        texts.append(
+            f"**{quantity(speed, 'm/s')} builds it up**: kicks a whole period apart add, kicks "
+            "half a period apart cancel. That is [the comb of Part IX](09-filter.ipynb)."
+        )
+    return "\n".join(f"{i}. {text}" for i, text in enumerate(texts, 1))
+
+
+def _safer(regimes):
+    again = any(start > regimes.edges[0] for start, _ in regimes.spans(lost=False))
+    return f"**{'Sometimes' if again else 'No'}.** Contact is {ranges(regimes)}."
+
+
+def _leaves_first(robot, limit, slider):
+    if not any(dt > limit for dt in slider):
+        return "**None**: every step of the slider is stable."
+    own = [RK4.max_stable_dt(np.array([lam, lam.conj()])) for lam in robot.eigenvalues]
+    first = int(np.argmin(own))
+    lam = robot.eigenvalues[first]
+    name = "heave" if robot.heave_share[first] > 0.5 else "pitch"
+    if lam.imag == 0:
+        return f"**One of the {name}**, on the real axis: it decays fastest."
+    return (
+        f"**The two of the {name}**, which swings at {number(abs(lam.imag) / 2 / np.pi)}{SPACE}Hz: "
+        "they are conjugate, and leave it together."
+    )
+
+
+def _another_answer(robot, dt):
+    lam = max(robot.eigenvalues, key=lambda lam: abs(lam))
+    seen = np.log(CRANK_NICOLSON.stability_function(lam * dt)) / dt
+    decays = f"decays with {number(-lam.real + 0.0)} per second, in the run with "
+    decays += f"{number(-seen.real + 0.0)}"
+    if lam.imag == 0:
+        return f"**The decay is another one.** The fastest mode {decays}."
+    return (
+        "**Frequency and damping are others.** The fastest mode swings at "
+        f"{number(abs(lam.imag) / 2 / np.pi)}{SPACE}Hz, in the run at "
+        f"{number(abs(seen.imag) / 2 / np.pi)}{SPACE}Hz; it {decays}."
+    )
+
+
+def _stiffness(flips, soft_lost):
+    if not len(flips):
+        return (
+            f"**Neither does it**: contact is {'lost' if soft_lost else 'kept'} with every spring "
+            "of the slider."
+        )
+    if len(flips) > 1:
+        return f"**Both do it**: the verdict turns {len(flips)} times."
+    side, where = ("Stiffer", "from {} on") if soft_lost else ("Softer", "up to {}")
+    return f"**{side}.** Contact is kept with springs {where.format(quantity(flips[0], 'N/m'))}."
 
 
 def presets(robot, flips, limit, slider):
@@ -107,7 +183,7 @@ def _wrong(slider):
     same = _set("with Crank-Nicolson", v=MIDDLE, dt=float(max(slider)), scheme="Crank-Nicolson")
     return (
         f"**Stable, and wrong.** The same {same}, up to {_ms(max(slider))}. Nothing blows up. "
-        "Compare with the faint curve behind."
+        "Compare with the broad pale curve, the exact force."
     )
 
 

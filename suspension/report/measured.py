@@ -21,16 +21,18 @@ from suspension.report.words import (
     percent,
     quantity,
     speed_list,
+    spelled,
 )
 from suspension.schemes import RK4
 from suspension.spring_law import linearised, rest
 
 __all__ = [
-    "aftermath_table",
     "conclusions",
     "critical_table",
     "draws_sentence",
     "geometry_sentence",
+    "how_it_grows",
+    "how_many_signed",
     "law_caption",
     "limit_table",
     "margins_caption",
@@ -44,11 +46,20 @@ __all__ = [
     "survival_sentence",
     "verdict_sentence",
     "verdict_table",
+    "which_stay",
+    "which_turn",
 ]
 
 ALIKE = 0.05  # laws nearer than this part of the largest force hardly differ
 CLOSE = 1e-3  # critical speeds of different runs agree within this part
+POWERS = {"Up to a ceiling": 0.0, "Like its root": 0.5, "In proportion to it": 1.0}
+NEAR = 0.1  # a power within this of another is called that one
 OPEN, SIGNED = "open", {True: "lost", False: "kept"}
+
+
+def _on(names):
+    """The laws that a wheel drives on, in words."""
+    return join(f"the {name}" for name in names)
 
 
 # --- the law, at rest -----------------------------------------------------------------------------
@@ -76,21 +87,18 @@ def law_caption(fit, at_rest, farthest):
 
 def statics_table(laws, robot):
     """Where the robot rests on each law, what it feels there, and how it swings."""
-    rows, beyond = [], []
+    head = "law", r"at rest, of $\delta_{\max{}}$", "tangent there (N/m)", "heave (Hz)"
+    names, beyond = {}, []  # laws of the same values share a row
     for name, law in laws.items():
         tangent, at_rest = linearised(robot, law), -rest(robot, law)[0] / law.delta_max
-        rows.append(
-            {
-                "law": name,
-                r"at rest, of $\delta_{\max{}}$": fixed(at_rest, 4),
-                "tangent there (N/m)": number(tangent.k1, 4),
-                "heave (Hz)": fixed(np.sqrt(2 * tangent.k1 / robot.m) / (2 * np.pi), 3),
-            }
-        )
+        heave = np.sqrt(2 * tangent.k1 / robot.m) / (2 * np.pi)
+        cells = fixed(at_rest, 4), number(tangent.k1, 4), fixed(heave, 3)
+        names.setdefault(cells, []).append(name)
         if at_rest > 1:
             beyond.append(name)
+    rows = [dict(zip(head, (join(alike), *cells))) for cells, alike in names.items()]
     note = (
-        rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on: {join(beyond)}. With a stop it "
+        rf"**The robot rests beyond $\delta_{{\max{{}}}}$** on {_on(beyond)}. With a stop it "
         "stands on it before it has driven a step."
     )
     return f"{table(rows)}\n\n{note}" if beyond else table(rows)
@@ -101,21 +109,26 @@ def statics_table(laws, robot):
 
 def verdict_table(asked, runs):
     """Kept, with the least force, or lost, by which wheel and where: a row for each speed."""
+    first = {WHEEL[wheel] for run in runs.values() for wheel in run.wheel[~run.kept]}
     rows = [
-        {"v (m/s)": f"{v:g}", **{name: _cell(run, i) for name, run in runs.items()}}
+        {"v (m/s)": f"{v:g}", **{name: _cell(run, i, len(first) > 1) for name, run in runs.items()}}
         for i, v in enumerate(asked)
     ]
-    note = (
-        "*Kept* with the least force of both wheels; *lost* with the wheel that leaves the ground "
-        "first and the place $X$ of the body then."
-    )
-    return f"{table(rows)}\n\n{note}"
+    note = []
+    if any(run.kept.any() for run in runs.values()):
+        note.append("*Kept* with the least force of both wheels.")
+    if first:
+        note.append("*Lost* with the place $X$ of the body then.")
+    if len(first) == 1:
+        note.append(f"It is always the {first.pop()} wheel that leaves the ground first.")
+    return f"{table(rows)}\n\n{' '.join(note)}"
 
 
-def _cell(run, i):
+def _cell(run, i, tell_wheel):
     if run.kept[i]:
         return f"kept, {fixed(run.margin[i], 2)}{SPACE}N"
-    return f"lost, {WHEEL[run.wheel[i]]}, {fixed(run.lost[i], 4)}{SPACE}m"
+    wheel = f"{WHEEL[run.wheel[i]]}, " if tell_wheel else ""
+    return f"lost, {wheel}{fixed(run.lost[i], 4)}{SPACE}m"
 
 
 def verdict_sentence(asked, runs):
@@ -134,10 +147,25 @@ def verdict_sentence(asked, runs):
     for (kept, names), speeds in turned.items():
         was, now = ("kept", "lost") if kept else ("lost", "kept")
         words.append(
-            f"At {speed_list(speeds)} contact is {was} on the {line} and **{now}** on: "
-            f"{join(names)}."
+            f"At {speed_list(speeds)} contact is {was} on the {line} and **{now}** on {_on(names)}."
         )
     return " ".join(words)
+
+
+def which_turn(asked, runs):
+    """At which speeds a verdict turns, and to which side, as the answer to a prediction."""
+    own, *others = (run.kept for run in runs.values())
+    slow = asked <= np.median(asked)
+    told = []
+    for side, kept in (("lost", True), ("kept", False)):
+        turned = (own == kept) & np.any([other != own for other in others], axis=0)
+        if turned.any():
+            where = {(True, False): "slow", (False, True): "fast"}.get(
+                ((turned & slow).any(), (turned & ~slow).any()), "slow and the fast"
+            )
+            speeds = speed_list(np.extract(turned, asked))
+            told.append(f"**At the {where} ones, to {side}:** {speeds}.")
+    return " ".join(told) or "**At none.**"
 
 
 def geometry_sentence(asked, runs, full):
@@ -153,28 +181,6 @@ def geometry_sentence(asked, runs, full):
             f" Where contact is kept the margin moves by at most {quantity(max(moved), 'N', 2)}."
         )
     return rf"With $\sin\theta$ and $\cos\theta$ in place of $\theta$ and 1, {words}"
-
-
-def aftermath_table(asked, runs, delta_max):
-    """What a ground that only pushes does to the robot where some law loses contact."""
-    rows = [
-        {"v (m/s)": f"{v:g}", **{name: _felt(run, i, delta_max) for name, run in runs.items()}}
-        for i, v in enumerate(asked)
-        if not all(run.kept[i] for run in runs.values())
-    ]
-    if not rows:
-        return "No law loses contact at an asked speed."
-    note = (
-        "The largest acceleration of the body; the largest compression of a spring, in units of "
-        r"$\delta_{\max{}}$; and how long rear and front wheel are in the air, in ms."
-    )
-    return f"{table(rows)}\n\n{note}"
-
-
-def _felt(run, i, delta_max):
-    acceleration = f"{number(run.acceleration[i])}{SPACE}m/s²"
-    air = " and ".join(fixed(1000 * t, 1) if t else "0" for t in run.airtime[:, i])
-    return f"{acceleration}; {fixed(run.compression[i] / delta_max, 2)}; {air}"
 
 
 def margins_caption(critical):
@@ -198,7 +204,7 @@ def survival_sentence(critical):
     gone = [v for v in line if v not in kept]
     if not len(line):
         found = [name for name, speeds in critical.items() if len(speeds)]
-        others = f"; there are some on: {join(found)}." if found else ", and no other law has one."
+        others = f"; there are some on {_on(found)}." if found else ", and no other law has one."
         return f"The line has no critical speed in the range{others}"
     if not gone:
         return "Every critical speed of the line is there on all laws."
@@ -207,6 +213,21 @@ def survival_sentence(critical):
         f"Of the line's critical speeds {stay} on all laws; {speed_list(gone)} "
         f"{_verb('belong', gone)} to a spring that nobody has measured."
     )
+
+
+def which_stay(critical):
+    """Which of the line's critical speeds every law has, as the answer to a prediction."""
+    line = list(next(iter(critical.values())))
+    kept = surviving(critical.values())
+    n = len(kept)
+    if not line:
+        return "**The line has none in the range.**"
+    if n in (0, len(line)):
+        return "**All of them.**" if n else "**Not one.**"
+    which = {n: "The slow ones", -n: "The fast ones"}
+    where = n if kept == line[:n] else -n if kept == line[-n:] else 0
+    share = f"{spelled(n)} of {spelled(len(line))}"
+    return f"**{which.get(where, 'Some of them')}:** {speed_list(kept)}, {share}."
 
 
 def _verb(verb, things):
@@ -220,9 +241,9 @@ def run_caption(v, shown, delta_max):
         for name, (X, p, _) in shown.items()
     )
     text = (
-        f"Front spring and front wheel at {v:g}{SPACE}m/s. The stop begins at the line at 1. Each "
-        "curve ends where a wheel leaves the ground, or at the end of the figure. The force is "
-        f"drawn linearly up to 10{SPACE}N, logarithmically beyond."
+        f"Front spring and front wheel at {v:g}{SPACE}m/s. The stop begins at 1. Each curve ends "
+        "where a wheel leaves the ground, or with the figure. The axis of the force is linear up "
+        f"to 10{SPACE}N and logarithmic beyond."
     )
     alt = (
         "Two panels against position: compression of the front spring over delta_max, and normal "
@@ -249,6 +270,30 @@ def stiffness_caption(ratio, felt):
     return Caption(text, alt)
 
 
+def how_it_grows(ratio, felt):
+    """How the acceleration grows with the stop's stiffness, as the answer to a prediction.
+
+    Parameters
+    ----------
+    ratio : array_like, shape (n,)
+        Stiffness of the stop over that of the spring, in order.
+    felt : sequence of array_like, shape (n,)
+        Largest acceleration at each speed at which a stop is met, m/s^2.
+    """
+    if not len(felt):
+        return "**No stop is met at these speeds.**"
+    last = np.asarray(ratio) >= ratio[-1] / 10
+    logs = np.log(np.asarray(ratio)[last])
+    powers = [np.polyfit(logs, np.log(np.asarray(values)[last]), 1)[0] for values in felt]
+    ends = sorted({fixed(min(powers), 2), fixed(max(powers), 2)})
+    power_law = f"goes like the stiffness to the power {join(ends, 'to')}"
+    said = f"over the last factor of ten the acceleration {power_law}"
+    for answer, power in POWERS.items():
+        if np.abs(np.array(powers) - power).max() < NEAR:
+            return f"**{answer}:** {said}."
+    return f"**In none of these ways yet:** {said}."
+
+
 def stiffness_sentence(turns):
     """At which stop over spring stiffness the verdict turns, if at all; `turns` by speed."""
     steady = [v for v, ratios in turns.items() if not len(ratios)]
@@ -256,8 +301,8 @@ def stiffness_sentence(turns):
     if steady:
         words = [f"At {speed_list(steady)} the verdict is the same with every stop that was tried."]
     words += [
-        f"At {speed_list([v])} it turns at {join(number(r) for r in ratios)} times the stiffness "
-        "of the spring."
+        f"At {speed_list([v])} it turns where the stop is {join(number(r) for r in ratios)} times "
+        "as stiff as the spring."
         for v, ratios in turns.items()
         if len(ratios)
     ]
@@ -286,14 +331,29 @@ def limit_table(eigenvalues, dt):
     )
 
 
-def order_caption(v, orders):
-    """Caption of the error of RK4 on each law, with the observed orders."""
+def order_caption(v, orders, unread=()):
+    """Caption of the error of RK4 on each law.
+
+    Parameters
+    ----------
+    v : float
+        Speed, m/s.
+    orders : dict of str to float
+        Observed, for each law of which one can be read.
+    unread : sequence of str
+        The other laws.
+    """
     each = join((f"{fixed(order, 1)} ({name})" for name, order in orders.items()), none="none")
-    return Caption(
+    text = (
         f"RK4 at {v:g}{SPACE}m/s until the body is over the bump: error beside a run of DOP853 "
-        f"with steps that are short at every kink. Observed orders: {each}.",
-        f"Error against time step on logarithmic axes; observed slopes: {each}.",
+        f"with steps that are short at every kink. Observed orders: {each}."
     )
+    if unread:
+        text += (
+            f" With {join(unread)} the error is near what that run can tell, and no order can be "
+            "read."
+        )
+    return Caption(text, f"Error against time step on logarithmic axes; observed slopes: {each}.")
 
 
 # --- how well it is known -------------------------------------------------------------------------
@@ -342,14 +402,17 @@ def draws_sentence(kept, drawn, linear):
 
 
 def critical_table(study):
-    """Critical speeds of every law with their intervals."""
-    rows = [
-        _critical_row(name, v, followed)
-        for name, law in study.laws.items()
-        for v, followed in zip(law.critical, law.followed)
-    ]
-    if not rows:
+    """Critical speeds of every law with their intervals; laws with the same ones share a row."""
+    names = {}
+    for name, law in study.laws.items():
+        for v, followed in zip(law.critical, law.followed):
+            names.setdefault(tuple(_critical_row(v, followed).items()), []).append(name)
+    if not names:
         return "No law has a critical speed in the range."
+    rows = [{"law": join(alike), **dict(cells)} for cells, alike in names.items()]
+    followed = [speeds for law in study.laws.values() for speeds in law.followed]
+    if np.isfinite(np.concatenate(followed)).all() and all(row[INTERVAL] != "–" for row in rows):
+        return table([{name: row[name] for name in row if name != "found"} for row in rows])
     note = (
         "*Found*: in how many of the draws the margin changes its sign within a factor "
         f"{REACH:g}. Where that is not in all of them the interval is that of those in which it "
@@ -359,14 +422,16 @@ def critical_table(study):
     return f"{table(rows)}\n\n{note}"
 
 
-def _critical_row(name, v, followed):
+INTERVAL = "95 % interval (m/s)"
+
+
+def _critical_row(v, followed):
     there = followed[np.isfinite(followed)]
     low, high = np.quantile(there, [0.025, 0.975]) if there.size else (np.nan, np.nan)
     around = low * (1 - CLOSE) <= v <= high * (1 + CLOSE)
     return {
-        "law": name,
         "critical speed (m/s)": number(v, 4),
-        "95 % interval (m/s)": f"{number(low, 4)} to {number(high, 4)}" if around else "–",
+        INTERVAL: f"{number(low, 4)} to {number(high, 4)}" if around else "–",
         "found": f"{there.size} of {followed.size}",
     }
 
@@ -383,12 +448,10 @@ def sign_table(study):
     ]
     n = study.line.share(0).n
     note = (
-        "In a row: what is not known about the model. In a cell: what is not known about its "
-        "parameters. *Kept*: in all draws, with the 95 % interval of the margin; *lost*: in all "
-        "draws; else the share of draws in which contact is lost. "
-        f"{n} draws that agree leave up to {percent(Share(0, n).high)} of doubt, "
-        "the 95 % bound for as many independent ones. Signed is what every law says with less than "
-        f"{percent(SURE)} of doubt."
+        "*Kept* and *lost* are what all draws say, *kept* with the 95 % interval of the margin; "
+        f"else there is the share of draws that lose contact. If {n} draws agree, up to "
+        f"{percent(Share(0, n).high)} of doubt is left (the 95 % bound for as many independent "
+        f"ones). Signed is what every law says with less than {percent(SURE)} of doubt."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -399,6 +462,17 @@ def _drawn(law, i):
     if margins is not None:
         return f"kept, {interval(*margins, decimals=2)}{SPACE}N"
     return "lost" if share.found == share.n else f"{percent(share.value)} lost"
+
+
+def how_many_signed(study):
+    """At how many speeds the verdict of the line is signed, as the answer to a prediction."""
+    signed = [v for i, v in enumerate(study.asked) if study.signed(i) is not None]
+    n, asked = len(signed), len(study.asked)
+    if n == asked:
+        return f"**At all {spelled(asked)}.**"
+    if n == asked - 1 and n:
+        return f"**At {spelled(n)} of them:** {speed_list(signed)}."
+    return f"**At fewer:** {speed_list(signed, none='none')}."
 
 
 def conclusions(study):
@@ -475,6 +549,6 @@ def _measure(study):
             "does not matter there."
         )
     return (
-        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop "
-        "and measure where that is and how stiff: no reading below it can tell."
+        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop. "
+        "Measure where the stop is and how stiff: no reading below it can tell."
     )

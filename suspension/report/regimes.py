@@ -11,7 +11,7 @@ import numpy as np
 
 from suspension.contact import is_lost
 from suspension.forces import WHEEL
-from suspension.report.data import speed_digits, speed_row
+from suspension.report.data import SPEED_ROW, consequence_rows, speed_digits, speed_row
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -26,6 +26,7 @@ from suspension.report.words import (
     quantity,
     ranges,
     speed_list,
+    spelled,
 )
 
 __all__ = [
@@ -34,15 +35,18 @@ __all__ = [
     "beyond_words",
     "confidence_note",
     "confidence_table",
+    "consequence_table",
     "critical_table",
     "doubt",
     "full_geometry",
     "landing_opening",
+    "last_speed",
     "lesson",
     "map_caption",
     "margin_caption",
     "other_readings",
     "sensitivity_caption",
+    "stays_inside",
     "stronger_dampers",
     "travel_caption",
     "verdict",
@@ -50,6 +54,9 @@ __all__ = [
 
 WIDE = 1.1  # a range of speeds from v to 1.1 v can be driven in; a narrower one is a curiosity
 APART = 1.01  # two ranges, one to v, the other from 1.01 v on, are told as two
+SMALL_ANGLE = "../notebooks/06-how-sure.ipynb#and-the-small-angle"
+HALVED = 0.05  # a factor so near to two, relative, is called two
+ORDINALS = "first second third fourth fifth sixth".split()
 
 
 class Asked(NamedTuple):
@@ -107,8 +114,7 @@ def verdict(regimes, beyond=()):
     where = beyond_words(regimes, beyond)
     if where:
         words.append(
-            f"All this holds **if the spring stays linear**: {where} it is compressed further "
-            "than it was measured."
+            f"All this holds **if the spring stays linear** further than it was measured: {where}."
         )
     return " ".join(words)
 
@@ -217,6 +223,36 @@ def stronger_dampers(before, after, still):
     )
 
 
+def last_speed(before, after):
+    """What dampers twice as strong do to the last critical speed, as the answer to a prediction.
+
+    Parameters
+    ----------
+    before, after : Regimes
+        With the robot's own dampers, and with twice as strong ones.
+    """
+    if not (len(before.critical) and len(after.critical)):
+        return "**There is none to compare:** one verdict holds in the whole range."
+    old, new = before.critical[-1], after.critical[-1]
+    told = f"from {number(old)} to {number(new)}{SPACE}m/s"
+    factor = old / new
+    if factor <= 1:
+        answer = f"**It does not fall:** it goes {told}."
+    elif abs(factor / 2 - 1) < HALVED:
+        answer = f"**It is halved, too,** {told}."
+    else:
+        much = "more" if factor > 2 else "less"
+        answer = f"**It falls by {much},** {told}: by a factor of {number(factor, 2)}."
+    if _windows(before) and not _windows(after):
+        answer += " The window before it has closed."
+    return answer
+
+
+def _windows(regimes):
+    """The ranges in which contact is kept although it is lost below them."""
+    return [span for span in regimes.spans(lost=False) if span[0] > regimes.edges[0]]
+
+
 def critical_table(intervals, full):
     """Critical speeds with their intervals, and where they do not exist.
 
@@ -251,6 +287,28 @@ def _critical_row(critical, full):
     return row | {"relative half-width": half, "in the full geometry (m/s)": moved, "note": note}
 
 
+def stays_inside(intervals, full):
+    """Do critical speeds stay inside their intervals in the full geometry? Answers a prediction.
+
+    Parameters
+    ----------
+    intervals, full
+        As in `critical_table`.
+    """
+    inside = [
+        moved is not None and critical.low <= moved <= critical.high
+        for critical, moved in zip(intervals, full, strict=True)
+        if critical.speed is not None
+    ]
+    if not inside:
+        return "**There is none to ask.**"
+    if all(inside):
+        return "**Each does.**"
+    if not any(inside):
+        return "**All leave it.**"
+    return f"**Some leave it:** {spelled(inside.count(False))} of {spelled(len(inside))}."
+
+
 def full_geometry(intervals, full):
     """Whether the small pitch costs a critical speed more than its interval allows.
 
@@ -281,6 +339,31 @@ def full_geometry(intervals, full):
         "In the full geometry every critical speed stays inside its interval: here the small angle "
         "costs less than the readings leave open."
     )
+
+
+def consequence_table(by_stiffness):
+    """The critical speeds of each stiffness, with their intervals.
+
+    A row for each stiffness if all have as many critical speeds, and these are there for every
+    stiffness in its interval; else a row for each critical speed.
+
+    Parameters
+    ----------
+    by_stiffness : sequence of (Stiffness, sequence of CriticalSpeed)
+        From `suspension.uncertainty.critical_speeds_by_stiffness`.
+    """
+    rows = consequence_rows(by_stiffness)
+    speed, interval, note = SPEED_ROW
+    n = {len(speeds) for _, speeds in by_stiffness}
+    unlike = len(n) > 1 or not 0 < max(n) <= len(ORDINALS)
+    if unlike or any(row[note] != "–" or row[speed] == "–" for row in rows):
+        return table(rows)
+    wide = {}
+    for row in rows:
+        found = wide.setdefault(row["stiffness"], {"stiffness": row["stiffness"]})
+        ends = row[interval].replace(" ", SPACE)  # a line ends before the bracket
+        found[f"{ORDINALS[len(found) - 1]} (m/s)"] = f"{row[speed]} ({ends})"
+    return table(list(wide.values()))
 
 
 def other_readings(by_stiffness):
@@ -326,7 +409,10 @@ def confidence_table(asked):
                 "margin (N)": ("lost" if is_lost(speed.margin) else fixed(speed.margin, 2)) + mark,
                 r"spring, of $\delta_{\max}$": fixed(speed.stretch, 2),
                 "verdict flips at k (N/m)": join([number(k, 4) for k in speed.flips]),
-                **{f"lost, by the {name}": confidence(p) + mark for name, p in speed.lost.items()},
+                **{
+                    f"confidence that contact is lost, with $k$ = the {name}": confidence(p) + mark
+                    for name, p in speed.lost.items()
+                },
             }
         )
     return table(rows)
@@ -336,14 +422,14 @@ def confidence_note(asked, stiffness):
     """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
         "The margins, and where the verdict flips, are those of the asked stiffness, "
-        f"{quantity(stiffness, 'N/m', 4)}; the confidence that contact is lost is given for each "
-        "reading of the data."
+        f"{quantity(stiffness, 'N/m', 4)}; the confidence is given for each way to read the "
+        "stiffness from the data."
     )
     beyond = [speed.v for speed in asked if speed.stretch > 1]
     if beyond:
         words += (
-            f" An asterisk, at {speed_list(beyond)}: **if the spring stays linear** beyond "
-            r"$\delta_{\max}$; no confidence level includes that doubt."
+            f" The asterisk, at {speed_list(beyond)}, marks what holds only **if the spring stays "
+            r"linear** beyond $\delta_{\max}$; no confidence level includes that doubt."
         )
     return words
 
@@ -424,7 +510,8 @@ def doubt(regimes, beyond, delta_max, tilt):
     return (
         f"{spring} As long as both wheels press, the pitch stays below {_up(np.degrees(tilt))} "
         rf"degrees, where $\sin\theta$ and $\theta$ differ by {sine}, $\cos\theta$ and 1 by "
-        f"{cosine}; [in the air](../notebooks/07-flight.ipynb) it is another matter."
+        f"{cosine} ([what that does to the critical speeds]({SMALL_ANGLE})). "
+        "[In the air](../notebooks/07-flight.ipynb) it is another matter."
     )
 
 
@@ -444,4 +531,4 @@ def lesson(regimes, balances):
     )
     if any(balance.pulled for balance in balances):
         words += ", and the damper, meant to hold the robot down, pulls a wheel off the ground"
-    return f"{words}: only the numbers tell what comes of it."
+    return f"{words}. Only the numbers tell which of these decides at a speed."

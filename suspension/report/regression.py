@@ -12,7 +12,6 @@ from suspension.report.words import (
     count,
     fixed,
     interval,
-    join,
     number,
     percent,
     pvalue,
@@ -20,6 +19,7 @@ from suspension.report.words import (
 )
 
 __all__ = [
+    "both_right",
     "coefficients",
     "coverage",
     "ellipse_figure",
@@ -35,8 +35,8 @@ __all__ = [
 ]
 
 KINDS = (
-    ("joint, p = 3 (the course's)", "scheffe", 3),
-    ("joint, p = 2", "scheffe", 2),
+    (f"joint, p{SPACE}={SPACE}3 (the course's)", "scheffe", 3),
+    (f"joint, p{SPACE}={SPACE}2", "scheffe", 2),
     ("Bonferroni, two at once", "bonferroni", 2),
     ("one at a time", "individual", 1),
 )
@@ -111,12 +111,17 @@ def intervals(fit):
         rows.append(
             {
                 "interval": name,
-                "half-width (standard errors)": fixed(fit.width(method=method, p=p), 3),
-                r"$\beta_0$ (N)": interval(*ends[0]),
-                r"$\beta_2$ (N)": interval(*ends[2]),
+                "standard errors": fixed(fit.width(method=method, p=p), 3),
+                r"$\beta_0$ (N)": _unbroken(ends[0]),
+                r"$\beta_2$ (N)": _unbroken(ends[2]),
             }
         )
     return table(rows)
+
+
+def _unbroken(ends):
+    """An interval for a cell of a table."""
+    return interval(*ends).replace(" ", SPACE)
 
 
 def joint_intervals(fit):
@@ -214,13 +219,13 @@ def _neighbours(neighbours):
     """How residuals go together in the order of the file, and what follows for the intervals."""
     correlation, low, high, widening = neighbours
     found = (
-        f"Neighbouring residuals correlate with {fixed(correlation, 2)}, "
-        f"{'**outside**' if neighbours.suspicious else 'inside'} the {fixed(low, 2)} to "
-        f"{fixed(high, 2)} that independent errors give in 95 of 100 experiments."
+        f"The correlation of neighbouring residuals is {fixed(correlation, 2)}, "
+        f"{'**outside**' if neighbours.suspicious else 'inside'} the range {fixed(low, 2)} to "
+        f"{fixed(high, 2)} of 95 in 100 experiments with independent errors."
     )
     if not neighbours.suspicious:
         return found
-    found += " The intervals and the F test suppose such errors, so they cannot be relied on."
+    found += " The intervals and the F test assume such errors, so they cannot be relied on."
     if correlation < low:
         return (
             f"{found} Signs take turns, as they do where readings of two kinds alternate, on "
@@ -253,6 +258,32 @@ def experiments_figure(shown, missed):
     return Caption(text, alt)
 
 
+def both_right(share, experiments, level=0.95):
+    """How often two one-at-a-time intervals were both right, beside what one might have guessed.
+
+    Parameters
+    ----------
+    share : float
+        Part of the experiments in which both were.
+    experiments : int
+        How many there were.
+    level : float
+        What each interval promises by itself.
+    """
+    independent = level**2
+    counted = f"in {percent(share, 3)} of the {experiments:,} experiments"
+    if share < independent + _uncertain(independent, experiments):
+        return f"**In about {percent(independent, 4)}:** {counted}."
+    if share > level - _uncertain(level, experiments):
+        return f"**In about {percent(level)}:** {counted}."
+    return f"**Between the two:** {counted}."
+
+
+def _uncertain(share, experiments):
+    """Three standard errors of the count, as a part of the experiments; `share` in truth."""
+    return 3 * math.sqrt(share * (1 - share) / experiments)
+
+
 def coverage(shares, experiments, level=0.95):
     """How often each kind of box held both true coefficients, and which keep the promise.
 
@@ -263,17 +294,19 @@ def coverage(shares, experiments, level=0.95):
     experiments : int
         How many there were.
     """
-    spread = math.sqrt(level * (1 - level) / experiments)  # of a share that is `level` in truth
+    doubt = _uncertain(level, experiments)
     promise = f"promise of {percent(level)}"
     rows = [
         {
             "intervals": name.replace(" = ", f"{SPACE}={SPACE}"),
             "both right in": percent(share, 3),
-            promise: "kept" if share >= level - 3 * spread else "broken",
+            promise: "kept" if share >= level - doubt else "broken",
         }
         for name, share in shares.items()
     ]
-    counted = f"Of {experiments:,} experiments; standard error of the count: {percent(spread, 1)}."
+    counted = (
+        f"Of {experiments:,} experiments; standard error of the count: {percent(doubt / 3, 1)}."
+    )
     return f"{table(rows)}\n\n{counted}"
 
 
@@ -283,8 +316,6 @@ def summary(fit):
     points = [
         f"The stiffness is {quantity(fit.stiffness, 'N/m')}{_known(fit)}",
         f"A linear spring is {linear} with the data.",
-        "An interval is only as good as the statement it belongs to: "
-        f"{join(['one coefficient', 'two', 'all'], 'or')}.",
         "This uncertainty travels on: it decides how well "
         "[the critical speeds](../notebooks/06-how-sure.ipynb) are known.",
     ]

@@ -35,13 +35,13 @@ def rides_table(names, speeds, linear, short, found, longer):
                 {
                     "suspension": name,
                     "v (m/s)": f"{v:g}",
-                    "force, linear (N)": fixed(linear[i][j], 2),
+                    "scatter of the force, linear (N)": fixed(linear[i][j], 2),
                     "share of short waves": percent(short[i][j], 3),
-                    "force (N)": _spread(found.force[0, :, i, j], 2),
+                    "scatter of the force (N)": _spread(found.force[0, :, i, j], 2),
                     "acceleration (m/s²)": _spread(found.acceleration[:, i, j], 2),
                     "rear wheel in the air": share(found.air[0, :, i, j].mean()),
                     "flights": _spread(flown, 1),
-                    "without the short waves": _spread(left, 1),
+                    "flights, long waves only": _spread(left, 1),
                 }
             )
     return table(rows)
@@ -70,22 +70,32 @@ def flights(names, speeds, linear, found, longer):
         if not flown.any():
             below = percent(Share(0, len(flown)).high)
             lines.append(
-                f"**“{name}” flew on none of {len(flown)} roads.** With 95{SPACE}% confidence it "
-                f"flies on less than {below} of such roads; that many roads can tell no more."
+                f"**{_subject(name)} flew on none of {len(flown)} roads.** With 95{SPACE}% "
+                f"confidence it flies on less than {below} of such roads; that many roads can tell "
+                "no more."
             )
             continue
-        flies = flown.any(axis=0)
-        line = f"**“{name}” flies at {_speeds(speeds, flies)}**"
-        if flown.all(axis=0).any():
-            line += f", on every road at {_speeds(speeds, flown.all(axis=0))}"
+        flies, every = flown.any(axis=0), flown.all(axis=0)
+        where = [
+            f"on {which} at {_speeds(speeds, some)}"
+            for which, some in (("every road", every), ("some roads", flies & ~every))
+            if some.any()
+        ]
+        line = f"**{_subject(name)} flies {' and '.join(where)}.**"
         ratio = found.force[0, :, i].mean(axis=0)[flies] / linear[i][flies]
         if (ratio < 1).all():
-            line += ". There the rear wheel's force scatters less than the linear robot's"
-        gone = flies & ~left.any(axis=0)
-        if gone.any():
-            line += f". Without the short waves it never does at {_speeds(speeds, gone)}"
-        lines.append(line + ".")
+            line += " The force on its rear wheel then scatters less than the linear robot's."
+        left = left.any(axis=0)
+        if not left.any():
+            line += " Without the short waves it never flies."
+        elif (flies & ~left).any():
+            line += f" Without the short waves it flies only at {_speeds(speeds, left)}."
+        lines.append(line)
     return "\n\n".join(lines)
+
+
+def _subject(name):
+    return "As it is, the robot" if name == "as it is" else f"With the suspension “{name}” it"
 
 
 def _speeds(speeds, some):

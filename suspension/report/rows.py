@@ -52,17 +52,17 @@ def table(rows):
     return "\n".join([head, rule, *body])
 
 
-def verdict(run, compression):
+def verdict(run, compression=None):
     """One row of a verdict table: kept or lost, where, each wheel's least force, and the spring.
 
     Parameters
     ----------
     run : Trajectory
-    compression : float
+    compression : float, optional
         Largest compression of a spring while both wheels press, over delta_max.
     """
     loss = run.loss
-    return {
+    row = {
         "v (m/s)": f"{run.v:g}",
         "contact": "lost" if loss else "kept",
         "wheel": WHEEL[loss.wheel] if loss else "–",
@@ -70,8 +70,10 @@ def verdict(run, compression):
         "at X (m)": _place(run.v * loss.t, run.v * run.dt) if loss else "–",
         "least $N_1$ (N)": _least(run, 0),
         "least $N_2$ (N)": _least(run, 1),
-        r"largest $\delta/\delta_{\max}$": fixed(compression, 2),
     }
+    if compression is None:
+        return row
+    return row | {r"largest $\delta/\delta_{\max}$": fixed(compression, 2)}
 
 
 def _place(x, spacing):
@@ -111,7 +113,7 @@ def _given(x):
 def matrix_rows(A):
     """The entries of a matrix, each under its row and column."""
     return [
-        {"$A_{ij}$": f"$i = {i}$", **{f"$j = {j}$": _entry(a) for j, a in enumerate(row, 1)}}
+        {"$A_{ij}$": f"${{i = {i}}}$", **{f"$j = {j}$": _entry(a) for j, a in enumerate(row, 1)}}
         for i, row in enumerate(np.asarray(A), 1)
     ]
 
@@ -145,7 +147,7 @@ def mode_rows(robot):
 
 def _complex(z):
     sign = "−" if z.imag < 0 else "+"
-    return f"{fixed(z.real, 4)} {sign} {fixed(abs(z.imag), 4)}i"
+    return f"{fixed(z.real, 4)}{SPACE}{sign}{SPACE}{fixed(abs(z.imag), 4)}i"
 
 
 def stability_rows(scheme, eigenvalues, dts):

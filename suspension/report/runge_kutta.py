@@ -11,19 +11,28 @@ from suspension.report.words import SPACE, Caption, fixed, join, number, quantit
 from suspension.road import road_input
 from suspension.schemes import RK4
 
-__all__ = ["agreement", "at_rest", "comparison", "growth_caption", "limit", "slopes_caption"]
+__all__ = [
+    "agreement",
+    "at_rest",
+    "comparison",
+    "growth_caption",
+    "limit",
+    "slopes_caption",
+    "won_back",
+]
 
 ROUNDOFF = 1e-9  # a mode whose amplitude grows by less has kept it
 NOTHING = 1e-12  # an acceleration below it is roundoff, SI units
+AS_PROMISED = 0.1  # an error that falls by the factor of its order, within this part
 
 
 def slopes_caption(end, truth):
     """Caption of one long step of RK4, that ends at `end` where the solution is `truth`."""
     off = quantity(100 * abs(end / truth - 1), "%", 2)
     text = (
-        "One step of RK4. Each symbol is a place where it looks, each short line the slope it "
-        f"finds there; the dashed line has their weighted mean. It ends (star) within {off} of "
-        "the exact solution."
+        "One step of RK4. A symbol marks where it looks, the short line through it the slope it "
+        "finds there. The dashed step has the weighted mean of the four slopes; it ends (star) "
+        f"within {off} of the exact solution."
     )
     alt = (
         "A curve, the exact solution, with four short slopes at the start, twice in the middle and "
@@ -76,9 +85,9 @@ def _residue(robot, road, wdot):
     wheel = int(np.abs(u[:2]).argmax())
     name, place = (("rear", "-L_1"), ("front", "L_2"))[wheel]
     return (
-        f"What is left is not roundoff but the bump, whose tail reaches to where the robot stands: "
-        f"at the {name} wheel the ground is $H({place})$ = {quantity(u[wheel], 'm')} high, and "
-        r"what both wheels feel of it, $B u$, accounts for these accelerations."
+        "What is left is not roundoff but the bump: its tail reaches the robot. The ground at the "
+        f"{name} wheel is $H({place})$ = {quantity(u[wheel], 'm')} high, and what both wheels feel "
+        "of it, $B u$, is just these accelerations."
     )
 
 
@@ -101,7 +110,7 @@ def growth_caption(runs, robot, shown):
     text = (
         f"Amplitude of the modes ({names}) step by step by {runs[0].scheme.name}, computed "
         rf"(symbols) and predicted from $\lvert R(\lambda_k\Delta t)\rvert$ (lines). {seen} "
-        "Symbols leave their line only where the rounding of a larger mode covers the smaller."
+        "A symbol leaves its line only where rounding errors of the larger mode cover the smaller."
     )
     alt = (
         f"Two panels, amplitude of the modes ({names}) on a logarithmic axis against the step "
@@ -175,7 +184,7 @@ def comparison(first, second, exact):
         Exact pitch at the times of each, rad.
     """
     runs = first, second
-    errors = [np.abs(run.W[2] - theta) for run, theta in zip(runs, exact)]
+    errors = [_errors(run, theta) for run, theta in zip(runs, exact)]
     largest, last = [error.max() for error in errors], [error[-1] for error in errors]
     best = int(largest[1] < largest[0])
     names = [run.scheme.name for run in (runs[best], runs[1 - best])]
@@ -196,3 +205,35 @@ def comparison(first, second, exact):
         for run, error in zip(runs, errors)
     ]
     return f"{sentence}\n\n{table(rows)}"
+
+
+def _errors(run, exact):
+    """Of the pitch at every time, rad."""
+    return np.abs(run.W[2] - exact)
+
+
+def won_back(first, second, finer, exact):
+    """What a method wins back by shorter steps, as the answer to a prediction.
+
+    Parameters
+    ----------
+    first, second : Trajectory
+        Two methods at the same step.
+    finer : Trajectory
+        The second method at a shorter step.
+    exact : pair of array_like
+        Exact pitch at the times of the first two and of the last, rad.
+    """
+    goal, before = (_errors(run, exact[0]).max() for run in (first, second))
+    now = _errors(finer, exact[1]).max()
+    times, order = round(second.dt / finer.dt), second.scheme.order
+    promise = f"The step is {times} times shorter, and a method of order {order} promises "
+    promise += f"${times}^{order} = {times**order}$"
+    if now <= goal:
+        return f"**All of it.** {promise}; here that is enough."
+    if abs(before / now / times**order - 1) < AS_PROMISED:
+        return f"**A factor of {number(before / now, 2)}.** {promise}."
+    return (
+        f"**A factor of {number(before / now, 2)}.** {promise}; these steps are still too long "
+        "for it."
+    )

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from suspension.contact import Regimes
 from suspension.problem import DISTANCE
 from suspension.report.regimes import WIDE
 from suspension.report.rows import table
@@ -11,22 +12,25 @@ from suspension.report.words import SPACE, Caption, count, fixed, join, number, 
 
 __all__ = [
     "Ride",
-    "asked",
     "chart_figure",
     "comb_figure",
     "course",
-    "cut",
+    "falls",
     "groups_table",
-    "heavy_wheels",
+    "heavy_first",
+    "heights_table",
     "limits_figure",
-    "losses",
+    "spring_summit",
     "twin_note",
     "two_ways",
     "vehicle_table",
     "vehicles_figure",
+    "weight",
     "window",
     "window_figure",
 ]
+
+NEARLY_CONSTANT = 1.5  # the largest over the least
 
 
 class Ride(NamedTuple):
@@ -38,10 +42,12 @@ class Ride(NamedTuple):
         Of the body on its spring: Hz, 1 and m.
     height : float
         Of the obstacle, m.
-    speeds, lost : ndarray, shape (n,)
-        m/s, in order; whether contact is lost at each.
+    contact : Regimes
+        Where contact is kept and lost, by the vehicle's own damping, km/h.
+    rises : bool
+        Whether its highest bump grows with the speed anywhere in the range.
     heavy : float
-        Speed above which a rigid wheel's own mass lifts it off the obstacle, m/s; nan if its mass
+        Speed above which a rigid wheel's own mass lifts it off the obstacle, km/h; nan if its mass
         is not known.
     """
 
@@ -52,9 +58,32 @@ class Ride(NamedTuple):
     zeta: float
     sag: float
     height: float
-    speeds: np.ndarray
-    lost: np.ndarray
+    contact: Regimes
+    rises: bool
     heavy: float
+
+
+def heights_table(speeds, heights, bump):
+    """The highest bump that is crossed with contact at each speed, beside the one there is.
+
+    Parameters
+    ----------
+    speeds, heights : sequence of float
+        m/s and m.
+    bump : float
+        Height of the problem's, m.
+    """
+    this = f"the bump, {1000 * bump:.1f}{SPACE}mm"
+    return table(
+        [
+            {
+                "v (m/s)": f"{v:g}",
+                "highest bump (mm)": number(1000 * height),
+                this: "kept" if height > bump else "lost",
+            }
+            for v, height in zip(speeds, heights, strict=True)
+        ]
+    )
 
 
 def groups_table(groups, v):
@@ -67,50 +96,6 @@ def groups_table(groups, v):
         (r"$\lambda = L/\sigma$", groups.lam, "half of the wheelbase in bump widths"),
     ]
     return table([{"group": name, "value": number(x), "meaning": says} for name, x, says in rows])
-
-
-def asked(found, speeds):
-    """Which of the speeds that the problem asks for lie below the curve.
-
-    Parameters
-    ----------
-    found : suspension.contact.Regimes
-    speeds : sequence of float
-        m/s.
-    """
-    lost = found(speeds)
-    below, above = (
-        [f"{v:g}" for v, gone in zip(speeds, lost, strict=True) if gone == side]
-        for side in (False, True)
-    )
-    if not above:
-        return f"All {count(len(speeds), 'speed')} that are asked for lie below the curve: kept."
-    if not below:
-        return f"All {count(len(speeds), 'speed')} that are asked for lie above the curve: lost."
-    return (
-        f"Of the speeds that are asked for, {join(below)}{SPACE}m/s "
-        f"{'lies' if len(below) == 1 else 'lie'} below the curve: contact is kept. "
-        f"{join(above)}{SPACE}m/s {'lies' if len(above) == 1 else 'lie'} above: lost."
-    )
-
-
-def cut(found):
-    """Where the line of the bump crosses the curve."""
-    low, high = (f"{v:g}" for v in found.edges[[0, -1]])
-    crossings = len(found.critical)
-    if not crossings:
-        side = "above" if found.lost[0] else "below"
-        return (
-            f"From {low} to {high}{SPACE}m/s the bump's line does not meet the curve: it lies "
-            f"{side} it, and contact is {'lost' if found.lost[0] else 'kept'} at every speed."
-        )
-    times = {1: "once", 2: "twice"}.get(crossings) or count(crossings, "time")
-    speeds = join([number(v) for v in found.critical])
-    what = "the critical speed" if crossings == 1 else "every critical speed there is"
-    return (
-        f"From {low} to {high}{SPACE}m/s the bump's line crosses the curve {times}, at "
-        f"{speeds}{SPACE}m/s: {what}."
-    )
 
 
 def two_ways(found):
@@ -171,14 +156,14 @@ def course(v, ratios):
     )
 
 
-def window(zeta, eta, lines, limit, exact):
-    """When the window closes for the bump: by straight lines, with the spring, and exactly.
+def window(zeta, eta, lines, exact):
+    """When the window closes for the bump: exactly, and by the two straight lines.
 
     Parameters
     ----------
     zeta, eta : float
         Damping of the robot, height of the bump.
-    lines, limit, exact : float
+    lines, exact : float
         Dampings at which the window closes.
     """
     now = (
@@ -189,10 +174,67 @@ def window(zeta, eta, lines, limit, exact):
         "as much as would be allowed"
     )
     return (
-        f"For this bump, {number(eta)} sags high, the window closes at $\\zeta$ = "
-        f"{number(exact, 2)} exactly. Throw and skim with the spring put it at "
-        f"{number(limit, 2)} ({_off(limit / exact)}), the two straight lines at "
-        f"{number(lines, 2)} ({_off(lines / exact)}). So the window is {now}."
+        f"For this bump, {number(eta)} sags high, the two lines close the window at $\\zeta$ = "
+        f"{number(lines, 2)}. Computed exactly it closes at {number(exact, 2)}, so the lines are "
+        f"{_off(lines / exact)}. The window is {now}."
+    )
+
+
+def spring_summit(zeta, exact, limit, lines, closes, closing_limit):
+    """What it brings to keep the spring where throw and skim meet.
+
+    Parameters
+    ----------
+    zeta, exact, limit, lines : array_like, shape (n,)
+        Dampings in order, and the summits there: exact (nan where there is none), by throw and skim
+        with the spring, and by the two straight lines.
+    closes, closing_limit : float
+        Damping at which the window closes for the bump, exactly and with the spring.
+    """
+    zeta, exact, limit, lines = map(np.asarray, (zeta, exact, limit, lines))
+    between = (lines <= exact) & (exact <= limit)
+    told = ~np.isnan(exact)
+    where = "The lines give a lower estimate and the spring a higher one; the truth lies between"
+    if not between[told].any():
+        where = "The truth does not lie between the two estimates here"
+    elif not between[told].all():
+        inside, beyond = zeta[told & between], zeta[told & ~between]
+        if beyond.max() < inside.min():
+            where += f", but for dampings up to {number(beyond.max(), 2)}"
+        elif beyond.min() > inside.max():
+            where += f", but for dampings from {number(beyond.min(), 2)} on"
+        else:
+            where += ", but not at every damping"
+    return (
+        f"With the spring the window closes at $\\zeta$ = {number(closing_limit, 2)}, "
+        f"{_off(closing_limit / closes)}. {where}. What is still missing are the comb, and that a "
+        "strongly damped body moves while its wheels are on the bump."
+    )
+
+
+def weight(zeta, tops):
+    """How the product of damping and height goes along the summit.
+
+    Parameters
+    ----------
+    zeta, tops : array_like, shape (n,)
+        Dampings in order, and the heights of the summit there; nan where there is none.
+    """
+    zeta, tops = np.asarray(zeta), np.asarray(tops)
+    there = ~np.isnan(tops)
+    if there.sum() < 2:
+        return "At these dampings there is no summit."
+    product = (zeta * tops)[there]
+    low, high = product.min(), product.max()
+    times = number(zeta[there][-1] / zeta[there][0], 2)
+    if high < NEARLY_CONSTANT * low:
+        return (
+            f"Computed exactly, $\\zeta\\eta$ hardly changes along the summit: over dampings that "
+            f"grow {times} times it stays between {number(low, 2)} and {number(high, 2)}."
+        )
+    return (
+        f"Computed exactly, $\\zeta\\eta$ goes from {number(product[0], 2)} to "
+        f"{number(product[-1], 2)} along the summit, over dampings that grow {times} times."
     )
 
 
@@ -217,11 +259,11 @@ def comb_figure(j, lam):
     """Caption of the comb of the wheelbase."""
     return Caption(
         f"An undamped robot with the inertia $j$ = {number(j, 2)} and the wheelbase $\\lambda$ = "
-        f"{number(lam, 2)} of ours: exact, and by the formula, which lies on it. Without a comb: "
-        "the same robot with $j = 1$.",
+        f"{number(lam, 2)} of ours: exact, and by the formula. Without a comb: the same robot with "
+        "$j = 1$.",
         "Highest bump of an undamped robot against speed. The exact curve and the formula of the "
-        "comb coincide; they hang in arcs below a smooth curve for j = 1 and approach the line of "
-        "throw from below.",
+        "comb hang in arcs below a smooth curve for j = 1 and approach the line of throw from "
+        "below.",
     )
 
 
@@ -239,7 +281,8 @@ def chart_figure(zetas, own, found, speeds):
     """
     crossed = len(found.critical)
     return Caption(
-        f"The chart. Each curve is the highest bump that a robot crosses with contact; "
+        "The chart: one picture for every speed and height, for all robots of these proportions. "
+        "Each curve is the highest bump that a robot crosses with contact; "
         f"{count(len(zetas), 'damping')} with $\\zeta$ up to {number(max(zetas), 2)}, ours "
         f"({number(own, 2)}) drawn thick. The bump of the problem is the line across, "
         f"thick where contact is kept, with the {count(len(speeds), 'speed')} asked for and "
@@ -265,7 +308,7 @@ def window_figure(zeta, eta, closes):
 
 
 def vehicle_table(rides):
-    """Vehicles, what their suspension is, and where its numbers are from."""
+    """Vehicles, what their suspension is, when they lose contact, and where that is from."""
     return table(
         [
             {
@@ -275,6 +318,8 @@ def vehicle_table(rides):
                 "sag (mm)": number(1000 * ride.sag, 2),
                 "obstacle": f"{ride.obstacle}, {1000 * ride.height:g}{SPACE}mm",
                 r"$\eta$": number(ride.height / ride.sag, 2),
+                "loses contact (km/h)": _lost(ride.contact),
+                "wheel too heavy above (km/h)": _speed(ride.heavy),
                 "source": ride.source,
             }
             for ride in rides
@@ -282,59 +327,70 @@ def vehicle_table(rides):
     )
 
 
-def losses(rides):
-    """Which vehicles lose contact, and at which speeds."""
-    lost = [f"the {ride.vehicle} {_where(ride)}" for ride in rides if ride.lost.any()]
-    kept = [f"the {ride.vehicle}" for ride in rides if not ride.lost.any()]
-    if not lost:
-        return "By the chart none of them loses contact at the speeds drawn."
-    text = "By the chart " + join(lost) + f" {'loses' if len(lost) == 1 else 'lose'} contact."
-    if kept:
-        text += f" {_capital(join(kept))} {'keeps' if len(kept) == 1 else 'keep'} it."
-    return text
+def _lost(contact):
+    """At which speeds contact is lost."""
+    low, high = contact.edges[[0, -1]]
+    words = []
+    for start, end in contact.spans(lost=True):
+        if (start, end) == (low, high):
+            return "at all speeds"
+        if end == high:
+            words.append(f"above {number(start, 2)}")
+        elif start == low:
+            words.append(f"below {number(end, 2)}")
+        else:
+            words.append(f"{number(start, 2)} to {number(end, 2)}")
+    return join(words, none="–")
+
+
+def _speed(kmh):
+    return "–" if np.isnan(kmh) else number(kmh, 2)
+
+
+def falls(rides):
+    """Whether going faster is safer for any of the vehicles."""
+    rising = [f"the {ride.vehicle}" for ride in rides if ride.rises]
+    if not rising:
+        return (
+            "For each of these vehicles the highest bump falls with the speed: its dampers are too "
+            "strong for a rising branch, and slower is safer."
+        )
+    return (
+        f"Only for {join(rising)} is there a range in which faster is safer. The dampers of the "
+        "others are too strong for a rising branch: slower is safer."
+        if len(rising) < len(rides)
+        else f"For {join(rising)} there is a range in which faster is safer."
+    )
+
+
+def heavy_first(rides):
+    """For which vehicles the mass of the wheel decides before the chart does."""
+    told = []
+    for ride in rides:
+        lost = ride.contact.spans(lost=True)
+        first = lost[0, 0] if len(lost) else np.inf
+        if ride.heavy < min(first, ride.contact.edges[-1]):
+            told.append(f"the {ride.vehicle}")
+    if not told:
+        return "For none of them does the mass of the wheel decide first."
+    return f"For {join(told)} the mass of the wheel decides first."
+
+
+def vehicles_figure(rides):
+    """Caption of the vehicles, a row for each."""
+    lost = [ride.vehicle for ride in rides if ride.contact.lost.any()]
+    words = f"lost for: {join(lost)}" if lost else "kept by all of them"
+    return Caption(
+        f"{_capital(count(len(rides), 'vehicle'))}, each over one obstacle, by the chart of a "
+        "single wheel ($j = 1$) with its own damping. Diamonds: critical speeds. Crosses: above "
+        "these a rigid wheel would be lifted by its own mass.",
+        "A row for each vehicle, a bar over the speeds at which it meets its obstacle, in two "
+        f"colours where contact is kept and lost. Contact is {words}.",
+    )
 
 
 def _capital(text):
     return text[0].upper() + text[1:]
-
-
-def _where(ride):
-    """At which speeds contact is lost, in km/h."""
-    kmh = 3.6 * ride.speeds
-    first, last = np.flatnonzero(ride.lost)[[0, -1]]
-    start, end = number(kmh[first], 2), number(kmh[last], 2)
-    if ride.lost.all():
-        return f"at all speeds from {start} to {end}{SPACE}km/h"
-    if last == len(kmh) - 1:
-        return f"above {start}{SPACE}km/h"
-    if first == 0:
-        return f"below {end}{SPACE}km/h"
-    return f"from {start} to {end}{SPACE}km/h"
-
-
-def heavy_wheels(rides):
-    """For which vehicles the mass of the wheel alone would lift it, and above which speed."""
-    told = [
-        f"the {ride.vehicle} above {number(3.6 * ride.heavy, 2)}{SPACE}km/h"
-        for ride in rides
-        if ride.heavy < ride.speeds[-1]
-    ]
-    if not told:
-        return "At the speeds drawn no wheel would be lifted by its own mass alone."
-    return "A rigid wheel would be lifted by its own mass alone: " + join(told) + "."
-
-
-def vehicles_figure(rides):
-    """Caption of the vehicles on the chart."""
-    lost = [ride.vehicle for ride in rides if ride.lost.any()]
-    words = f"lost for: {join(lost)}" if lost else "kept by all of them"
-    return Caption(
-        f"{_capital(count(len(rides), 'vehicle'))} on the chart of a single wheel ($j = 1$). Each "
-        "bar is a range of speeds over one obstacle; its verdict is that of the vehicle's own "
-        "damping.",
-        "Bars of speed for vehicles over curves of the highest bump for several dampings. Contact "
-        f"is {words}.",
-    )
 
 
 def twin_note(robot):

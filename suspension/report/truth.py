@@ -5,7 +5,16 @@ import numpy as np
 from suspension import accuracy
 from suspension.contact import is_lost
 from suspension.report.rows import table
-from suspension.report.words import SPACE, Caption, count, fixed, join, number, quantity, speed_list
+from suspension.report.words import (
+    SPACE,
+    Caption,
+    count,
+    fixed,
+    join,
+    number,
+    quantity,
+    speed_list,
+)
 
 __all__ = [
     "READINGS",
@@ -13,11 +22,13 @@ __all__ = [
     "convergence_caption",
     "dip_caption",
     "heave_caption",
+    "missed_sentence",
     "missed_table",
     "observed_orders",
     "panels",
     "power",
     "sampled_caption",
+    "sampled_direction",
     "sampled_verdicts",
     "seen_mode_caption",
     "work_account",
@@ -36,6 +47,7 @@ def power(x):
 
 
 GOAL = 0.01  # N, an error of a force that is small beside the weight on a wheel
+EXACT = 1e-6  # N, a sample of a fine run is the force as far as that
 READINGS = ("state (relative)", "normal force (N)", "time of loss (s)")
 
 
@@ -64,8 +76,29 @@ def sampled_caption(speeds, sampled):
     )
 
 
+def sampled_direction(sampled, exact):
+    """Which way samples are wrong, as the answer to a prediction; arguments of `sampled_verdicts`.
+
+    A sample of the run is the force to a millionth of a newton, or the samples are blamed for it.
+    """
+    off = np.array(list(sampled.values())) - exact
+    high, low = (quantity(most, "N", 2) for most in (max(off.max(), 0), max(-off.min(), 0)))
+    looked = f"Of {off.size} least values that were read from samples"
+    if off.min() < -EXACT:
+        return (
+            f"**Either way, here.** {looked} some lie below the exact one, by up to {low}: the run "
+            "itself is wrong by that much."
+        )
+    if off.max() <= EXACT:
+        return f"**Too high only.** {looked} none lies below the exact one, and here none above."
+    return (
+        f"**Too high only.** {looked} none lies below the exact one, and the worst lies {high} "
+        "above it."
+    )
+
+
 def sampled_verdicts(sampled, exact):
-    """How many verdicts are wrong when the margin is read from samples, a table.
+    """How many verdicts are wrong when the margin is read from samples, and in which way.
 
     Parameters
     ----------
@@ -75,16 +108,18 @@ def sampled_verdicts(sampled, exact):
         The least force at any time, N.
     """
     lost = is_lost(exact)
-    return table(
-        [
-            {
-                "a sample every (ms)": number(1000 * dt, 2),
-                "verdicts": str(len(lost)),
-                "wrong": str((is_lost(least) != lost).sum()),
-            }
-            for dt, least in sampled.items()
-        ]
+    wrong = {dt: is_lost(least) != lost for dt, least in sampled.items()}
+    told = join(
+        f"{flags.sum()} with a sample every {number(1000 * dt, 2)}{SPACE}ms"
+        for dt, flags in wrong.items()
     )
+    words = f"Wrong verdicts out of {len(lost)}: {told}."
+    blamed = np.concatenate([lost[flags] for flags in wrong.values()])
+    if not blamed.size:
+        return f"{words} That is luck, or these speeds are far from a critical one."
+    if blamed.all():
+        return f"{words} Every wrong one says *kept* where a wheel leaves the ground."
+    return words
 
 
 def convergence_caption(worst, v):
@@ -300,6 +335,24 @@ def missed_table(speeds, missed):
         f"Of {count(len(speeds), 'speed')} from {number(speeds[0])} to {number(speeds[-1])}{SPACE}"
         f"m/s, beside a critical one, the loss of contact goes unnoticed at\n\n{rows}"
     )
+
+
+def missed_sentence(coarse, sharp):
+    """What a sharper tolerance is worth to an event.
+
+    Parameters
+    ----------
+    coarse, sharp : sequence of float
+        The speeds at which an integrator saw no loss, by itself and by a method of higher order
+        with a sharp tolerance.
+    """
+    promise = (
+        "A tolerance bounds the error at the ends of the steps and promises nothing between them."
+    )
+    if not len(coarse) and not len(sharp):
+        return promise
+    more = np.sign(len(sharp) - len(coarse))
+    return f"The better method misses {('as many', 'more', 'fewer')[more]}. {promise}"
 
 
 def dip_caption(v, was_missed):

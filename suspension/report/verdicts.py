@@ -51,26 +51,29 @@ def contact(runs, compression, robot, fit):
     return "\n\n".join(parts)
 
 
-def same_at_half_the_step(runs, halved, compression):
-    """Answer 6(iii): the same runs at half the step, and whether the conclusions change."""
+def same_at_half_the_step(runs, halved):
+    """Answer 6(iii): where contact is lost at half the step, and whether the conclusions change."""
     change = "do not change" if _lost(runs) == _lost(halved) else "**change**"
-    return (
-        rf"At $\Delta t$ = {halved[0].dt:g} s {_lost_phrase(halved)}: the conclusions {change}. "
-        f"The least forces move by {_difference(runs, halved)}:\n\n"
-        f"{verdict_table(halved, compression)}"
+    sentence = (
+        rf"At $\Delta t$ = {halved[0].dt:g} s {_lost_phrase(halved)}: the conclusions {change}."
     )
+    kept = [pair for pair in zip(runs, halved, strict=True) if not any(_lost(pair))]
+    if not kept:
+        return sentence
+    moved = _difference(*zip(*kept))
+    return f"{sentence} Where contact is kept, the least forces move by {moved}."
 
 
-def same_by_another_scheme(runs, others, compression):
+def same_by_another_scheme(runs, others):
     """Answer 10(i): where contact is lost, and whether Part II, `others`, says the same."""
     agree = "agree" if _lost(runs) == _lost(others) else "do **not** agree"
     after = " and of the forces “after” a loss" if any(_lost(runs)) else ""
     parts = [
         lost_sentence(runs),
-        verdict_table(runs, compression),
+        table([verdict(run) for run in runs]),
         f"The verdicts {agree} with those of Part II; the least forces differ by "
-        f"{_difference(runs, others)}. What is said of the spring{after} in "
-        f"[Question 6]({QUESTION_6}) holds here as well.",
+        f"{_difference(runs, others)}. What [Question 6]({QUESTION_6}) says of the spring{after} "
+        "holds here, too.",
     ]
     return "\n\n".join(parts)
 
@@ -119,8 +122,9 @@ def verdict_table(runs, compression):
 def table_note(runs):
     """What the forces in a verdict table are."""
     note = (
-        "Where contact is kept the smaller of the two is the margin. The further it is from zero, "
-        "the less a numerical error, another spring or a heavier load could turn the verdict."
+        "Where contact is kept, the smaller of the two least forces is the margin. The further it "
+        "is from zero, the less can a numerical error, another spring or a heavier load turn the "
+        "verdict."
     )
     if any(_lost(runs)):
         note += (
@@ -135,7 +139,7 @@ def spring_sentence(runs, compression, robot, fit):
     measured = robot.k1 == robot.k2 == float(fit.stiffness)
     if measured:
         rests = (
-            "All verdicts rest on the asked stiffness, the slope of the parabola at zero, "
+            "All verdicts rest on the stiffness of Question 1, the slope of the parabola at zero, "
             f"$k$ = {quantity(robot.k1, 'N/m')} ([which stiffness the robot feels]({FEELS}))"
         )
         if not fit.linearity().linear:
@@ -153,9 +157,9 @@ def spring_sentence(runs, compression, robot, fit):
             rf"$\delta_{{\max}}$, as far as {reach}."
         )
     return (
-        f"{rests}. At {speed_list(beyond)} they hold **if the spring stays linear** beyond "
-        rf"$\delta_{{\max}}$, as far as {reach}: a spring is compressed further before the verdict "
-        f"is reached.{_at_rest(robot, fit.delta_max)}"
+        f"{rests}. At {speed_list(beyond)} they hold **if the spring stays linear**: before the "
+        rf"verdict is reached, a spring is compressed further than $\delta_{{\max}}$, as far as "
+        f"{reach}.{_at_rest(robot, fit.delta_max)}"
     )
 
 

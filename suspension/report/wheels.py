@@ -69,7 +69,7 @@ def limit_table(v, rules, runs):
 
 
 def surviving_rule(rules, lightest):
-    """By how much the airtime of the lightest wheels differs from each rule's, a table.
+    """The airtime by each rule, beside that of the lightest wheels, a table.
 
     Parameters
     ----------
@@ -78,12 +78,19 @@ def surviving_rule(rules, lightest):
     lightest : sequence of Rolling
         The lightest wheel of each way to the limit.
     """
+    if not all((run.airtime > 0).all() for run in (*rules.values(), *lightest)):
+        return "With this spring not every wheel flies here: nothing is decided."
     rows = []
     for name, flight in rules.items():
-        if not (flight.airtime > 0).all():
-            return "With this spring no wheel flies here by one rule at least: nothing is decided."
-        off = max(np.abs(run.airtime / flight.airtime - 1).max() for run in lightest)
-        rows.append({"a wheel without mass": name, "airtime is off by": percent(off)})
+        off = np.concatenate([flight.airtime / run.airtime - 1 for run in lightest])
+        worst = off[np.argmax(np.abs(off))]
+        rows.append(
+            {
+                "a wheel without mass": name,
+                "airtime, beside that of the lightest wheels": f"{percent(abs(worst), 2)} too "
+                + ("long" if worst > 0 else "short"),
+            }
+        )
     return table(rows)
 
 
@@ -149,7 +156,7 @@ def heaviest_caption(asked):
     return Caption(text, alt)
 
 
-def heaviest_sentence(regimes, v, mass):
+def heaviest_sentence(regimes, v, mass, body):
     """For which wheels faster is safer.
 
     Parameters
@@ -158,6 +165,8 @@ def heaviest_sentence(regimes, v, mass):
         Of wheels without mass.
     v, mass : array_like, shape (n,)
         Speeds, m/s, dense and within the regimes, and the heaviest wheel pairs there, kg.
+    body : float
+        Mass of the body, kg.
     """
     v, mass = np.asarray(v), np.asarray(mass)
     lost, kept = (regimes.spans(lost=which) for which in (True, False))
@@ -171,9 +180,9 @@ def heaviest_sentence(regimes, v, mass):
     if np.isinf(most):
         return f"In a part of {where} a wheel may weigh what it likes."
     return (
-        f"**Faster is safer for wheels lighter than {grams(most)} a pair, and for no others**: in "
-        f"{where}, where wheels without mass keep contact, a heavier one leaves the ground at "
-        "every speed."
+        f"**Faster is safer for wheels lighter than {grams(most)} a pair, "
+        f"{percent(most / body, 1)} of the mass of the body, and for no others**: in {where}, "
+        "where wheels without mass keep contact, a heavier one leaves the ground at every speed."
     )
 
 

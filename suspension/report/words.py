@@ -26,6 +26,7 @@ __all__ = [
     "seconds",
     "share",
     "speed_list",
+    "spelled",
 ]
 
 SPACE = "\u00a0"  # does not break a line
@@ -143,15 +144,23 @@ def interval(low, high, unit="", decimals=3):
     return f"{fixed(low, decimals)} to {fixed(high, decimals)}" + (SPACE + unit if unit else "")
 
 
+def spelled(n):
+    """A whole number, in words up to nine.
+
+    >>> spelled(0), spelled(4), spelled(12)
+    ('none', 'four', '12')
+    """
+    words = "none one two three four five six seven eight nine".split()
+    return words[n] if n < len(words) else str(n)
+
+
 def count(n, noun, plural=None):
     """How many of a thing, in words up to nine.
 
     >>> count(0, "flight"), count(1, "flight"), count(4, "speed"), count(12, "point")
     ('no flights', 'one flight', 'four speeds', '12 points')
     """
-    words = "no one two three four five six seven eight nine".split()
-    how_many = words[n] if n < len(words) else str(n)
-    return f"{how_many} {noun if n == 1 else plural or noun + 's'}"
+    return f"{spelled(n) if n else 'no'} {noun if n == 1 else plural or noun + 's'}"
 
 
 def join(items, last="and", none="none"):

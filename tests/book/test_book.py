@@ -106,6 +106,20 @@ def test_figures_follow_the_theme_and_the_width(book, page):
         assert int(figure["width"]) <= 400
 
 
+@pytest.mark.parametrize("page", ["01-regression", "02-crank-nicolson"])
+def test_a_prediction_is_tapped_and_its_answer_folded(book, page):
+    soup = parse(book / f"notebooks/{page}.html")
+    asked = [bold.parent for bold in soup.select("article p > strong") if bold.string == "Predict."]
+    assert asked
+    for question in asked:
+        choices = question.find_next_sibling()
+        assert choices and "choices" in choices.get("class", [])
+        assert len(choices.find_all("li")) == 3
+        answer = choices.find_next_sibling()
+        assert "fold" in answer["class"] and answer.summary.get_text() == "Answer"
+        assert answer.p.find("strong", recursive=False) is answer.p.contents[0]
+
+
 def test_references_are_in_alphabetical_order_and_labelled_by_author_and_year(book):
     found = parse(book / "book/references.html").select("div.citation > .label")
     labels = [label.get_text(strip=True).strip("[]") for label in found]

@@ -9,6 +9,7 @@ from normalise import normalise
 
 MYST = re.compile(r"\{[a-z:-]+\}`|^(```|:::+) ?\{|^\(.*\)=$", re.MULTILINE)
 PARTS = sorted(ROOT.glob("notebooks/*.ipynb"))
+COMMITTED = ("03-runge-kutta", "05-how-we-know", "06-how-sure", "08-measured-spring")
 WORKBOOK = sorted(ROOT.glob("notebooks/workbook/*.ipynb"))
 
 
@@ -60,7 +61,7 @@ def test_stores_figures_but_neither_widgets_nor_errors(path):
     mimes = {mime for output in outputs for mime in output.get("data", {})}
     rich = {mime for mime in mimes if mime.startswith(("image/", "application/"))}
     assert rich <= {"image/svg+xml"}
-    live = "show_figure|explore|Prediction|Workshop|Chain"  # these as still pictures
+    live = "show_figure|explore|Prediction|Workshop|Chain|Own"  # these as still pictures
     shown = re.compile(rf"\b({live})\(")
     shows = sum(bool(shown.search(cell.source)) for cell in code_cells(path))
     assert sum("image/svg+xml" in output.get("data", {}) for output in outputs) == shows
@@ -88,6 +89,26 @@ def test_holds_plain_markdown_only(path):
             assert not MYST.search(cell.source)
 
 
+def predictions(path):
+    """Of each prediction of a notebook: its question, the heading of its fold, its answer."""
+    cells = nbformat.read(path, as_version=4).cells
+    asked = [i for i, cell in enumerate(cells) if "**Predict.**" in cell.source]
+    return [cells[i : i + 3] for i in asked]
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_a_prediction_has_choices_to_tap_and_a_computed_answer(name):
+    found = predictions(ROOT / "notebooks" / f"{name}.ipynb")
+    assert found
+    for question, fold, answer in found:
+        words = question.source.partition("**Predict.**")[2]
+        choices = re.findall(r"^- (.*)$", words, re.MULTILINE)
+        assert len(choices) >= 3 and words.rstrip().endswith(choices[-1])
+        assert re.fullmatch(r"#+ Answer", fold.source)
+        assert answer.cell_type == "code" and "remove-input" in answer.metadata["tags"]
+        assert answer.outputs[0].data["text/markdown"].startswith("**")
+
+
 @pytest.mark.parametrize("path", WORKBOOK, ids=name)
 def test_a_workbook_is_short_and_each_blank_has_a_check_and_a_folded_solution(path):
     cells = nbformat.read(path, as_version=4).cells
@@ -99,7 +120,8 @@ def test_a_workbook_is_short_and_each_blank_has_a_check_and_a_folded_solution(pa
         blank, check, fold, solution = cells[i : i + 4]
         assert "..." in blank.source
         assert check.source.startswith("practice.check_")
-        assert fold.source == "#### Solution" and fold.metadata["jp-MarkdownHeadingCollapsed"]
+        assert fold.source.splitlines()[0] == "#### Solution"
+        assert fold.metadata["jp-MarkdownHeadingCollapsed"]
         assert solution.metadata["tags"] == ["solution"] and "..." not in solution.source
         (output,) = check.outputs
         assert output.data["text/plain"].startswith("Fill in the blank of `")

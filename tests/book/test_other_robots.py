@@ -141,7 +141,7 @@ def test_where_the_stiffness_is_from_is_said(name, pages):
     k = f"{number(page.names['k1'], 4)}\u00a0N/m"
     assert k in page.answer("3(i)")
     assert ("from Part I," in page.answer("3(i)")) == fitted
-    assert ("asked stiffness" in page.answer("6(i)")) == fitted
+    assert ("stiffness of Question 1" in page.answer("6(i)")) == fitted
     assert ("stiffnesses that were chosen" in page.answer("6(i)")) != fitted
 
 

@@ -107,8 +107,8 @@ def test_the_students_copy_holds_no_solution_and_no_answer(copies):
         assert not [solution for solution in solutions if solution in text], path
         if path.parent.name == "notebooks":
             whole = sources(wanted[path.name].parent)[wanted[path.name]]
-            asked = re.findall(r"^### Exercise.*|^### Proof.*", whole, re.MULTILINE)
-            assert re.findall(r"^### Exercise.*|^### Proof.*", text, re.MULTILINE) == asked
+            stays = re.compile(r"^#+ (?:Exercise|Proof|Check)\b.*", re.MULTILINE)
+            assert stays.findall(text) == stays.findall(whole)
 
 
 def test_what_stands_before_and_after_a_solution_stays():
@@ -132,6 +132,34 @@ def test_what_stands_before_and_after_a_solution_stays():
         "the model and [a part](01-a.ipynb)",
     ]
     assert "secret" in notebook.cells[0].source  # the book's own stays as it is
+
+
+def test_the_lecturers_copy_keeps_what_a_solution_says_in_words():
+    cells = [
+        nbformat.v4.new_markdown_cell("Guess first."),
+        nbformat.v4.new_code_cell("x = ...", metadata={"tags": ["blank"]}),
+        nbformat.v4.new_code_cell("check(x)"),
+        nbformat.v4.new_markdown_cell("#### Solution\n\nIt is wider."),
+        nbformat.v4.new_code_cell("x = 1", metadata={"tags": ["solution"]}),
+        nbformat.v4.new_markdown_cell("## Next"),
+        nbformat.v4.new_code_cell("y = ...", metadata={"tags": ["blank"]}),
+        nbformat.v4.new_markdown_cell("#### Solution"),
+        nbformat.v4.new_code_cell("y = 2", metadata={"tags": ["solution"]}),
+    ]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    kinds = {
+        "students": ["Guess first.", "x = ...", "check(x)", "## Next", "y = ..."],
+        "solutions": [
+            "Guess first.",
+            "x = 1",
+            "check(x)",
+            "#### Solution\n\nIt is wider.",
+            "y = 2",
+        ],
+    }
+    for kind, wanted in kinds.items():
+        made = students.handed_out(notebook, kind, is_workbook=True)
+        assert [cell.source for cell in made.cells] == wanted
 
 
 def test_links_of_a_copy_lead_to_its_own_notebooks(copies):

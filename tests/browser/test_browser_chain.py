@@ -2,19 +2,20 @@
 
 import re
 
-import nbformat
 import pytest
-from helpers import AXE, violations
+from instruments import (
+    PHONE,
+    gives_way_on_paper,
+    objections,
+    still_picture,
+    touch,
+    visiting,
+    write_notebook,
+)
+from instruments import pictures as pixels
 from lab import run_all, serve
-from nbformat.v4 import new_code_cell, new_notebook
 
-PAGE = "notebooks/13-laboratory.html"
 BOX = ".suspension-laboratory.se-chain"
-PIXELS = """canvas => {
-  const { width, height } = canvas;
-  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-  return new Uint32Array(data.buffer).reduce((number, pixel) => (31 * number + pixel) | 0, width);
-}"""
 LEFT, RIGHT, TOP, BOTTOM = 52, 20, 24, 33  # pixels beside the frame of the readings
 READING = re.compile(r"^Reading (\d+) of (\d+), at ([\d.]+): (−?[\d.]+)\sN")
 
@@ -22,23 +23,13 @@ READING = re.compile(r"^Reading (\d+) of (\d+), at ([\d.]+): (−?[\d.]+)\sN")
 @pytest.fixture
 def visit(browser, site):
     """Open the page with the readings; in the end, no script has complained."""
-    contexts, complaints = [], []
 
-    def go(**options):
-        context = browser.new_context(**({"viewport": {"width": 1366, "height": 1000}} | options))
-        contexts.append(context)
-        tab = context.new_page()
-        tab.on("pageerror", lambda error: complaints.append(str(error)))
-        tab.goto(f"{site}{PAGE}")
-        tab.wait_for_selector(f"{BOX} canvas[aria-label]")
+    def settle(tab):
         tab.locator(f"{BOX} .se-pad").scroll_into_view_if_needed()
         tab.wait_for_timeout(200)
-        return tab
 
-    yield go
-    for context in contexts:
-        context.close()
-    assert not complaints
+    with visiting(browser, site, BOX, settle) as go:
+        yield go
 
 
 def pad(tab):
@@ -68,8 +59,7 @@ def table(tab, caption):
 
 
 def pictures(tab):
-    tab.wait_for_timeout(100)  # two frames and more
-    return [canvas.evaluate(PIXELS) for canvas in tab.locator(f"{BOX} canvas").all()]
+    return pixels(tab, BOX)
 
 
 def place(tab, n):
@@ -96,22 +86,6 @@ def drag(tab, n, up):
     tab.mouse.up()
 
 
-def touch(tab, ways):
-    """A finger's way over the screen, in pixels of the window."""
-    client = tab.context.new_cdp_session(tab)
-
-    def send(kind, *at):
-        fingers = [{"x": x, "y": y} for x, y in at]
-        client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
-
-    (x0, y0), (x1, y1) = ways
-    send("touchStart", (x0, y0))
-    for n in range(1, 9):
-        send("touchMove", (x0 + (x1 - x0) * n / 8, y0 + (y1 - y0) * n / 8))
-    send("touchEnd")
-    tab.wait_for_timeout(200)
-
-
 def test_a_reading_is_dragged_and_everything_follows(visit):
     tab = visit()
     before, drawn = told(tab), pictures(tab)
@@ -133,17 +107,17 @@ def test_a_reading_is_dragged_and_everything_follows(visit):
 
 
 def test_a_finger_moves_a_reading_by_a_clear_pull_and_scrolls_beside_it(visit):
-    tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    tab = visit(**PHONE)
     pad(tab).evaluate("pad => scrollBy(0, pad.getBoundingClientRect().top - 200)")
     before, scrolled = told(tab), tab.evaluate("scrollY")
     x, y = place(tab, 4)
-    touch(tab, [(x, y), (x, y - 4)])  # a tremor chooses, and moves nothing
+    touch(tab, (x, y), (x, y - 4))  # a tremor chooses, and moves nothing
     assert told(tab) == before and chosen(tab)[0] == 5
-    touch(tab, [(x, y), (x, y - 70)])
+    touch(tab, (x, y), (x, y - 70))
     assert told(tab) != before and tab.evaluate("scrollY") == scrolled
     moved = told(tab)
     x, y = place(tab, 18)
-    touch(tab, [(x, y + 120), (x, y + 20)])  # nothing is there: the page scrolls
+    touch(tab, (x, y + 120), (x, y + 20))  # nothing is there: the page scrolls
     assert tab.evaluate("scrollY") > scrolled and told(tab) == moved
 
 
@@ -257,32 +231,20 @@ def test_a_move_costs_no_frame(visit):
 
 
 def test_without_scripts_and_on_paper_there_is_a_still_picture(browser, site, visit):
-    context = browser.new_context(java_script_enabled=False)
-    tab = context.new_page()
-    tab.goto(f"{site}{PAGE}")
-    still = tab.locator(f"{BOX} img")
-    assert still.is_visible() and "the critical speeds over the" in still.get_attribute("alt")
-    context.close()
-    tab = visit()
-    assert not tab.locator(f"{BOX} img").is_visible()
-    tab.emulate_media(media="print")
-    assert tab.locator(f"{BOX} img").is_visible()
-    assert not tab.locator(f"{BOX} canvas").first.is_visible()
+    assert "the critical speeds over the" in still_picture(browser, site, BOX)
+    assert gives_way_on_paper(visit(), BOX)
 
 
 @pytest.mark.parametrize("width", [390, 1366])
 def test_axe_finds_nothing_whatever_was_done(visit, width):
     tab = visit(viewport={"width": width, "height": 900})
-    tab.add_script_tag(path=AXE)
-    tab.add_style_tag(content="* { transition: none !important }")
-    found = violations(tab, within=BOX)[0]
-    pad(tab).focus()
-    tab.keyboard.press("Shift+ArrowUp")
-    button(tab, "Add an outlier").click()
-    found += violations(tab, within=BOX)[0]
-    tab.emulate_media(color_scheme="dark")
-    tab.wait_for_function("document.documentElement.dataset.theme === 'dark'")
-    found += violations(tab, "color-contrast", within=BOX)[0]
+
+    def change(tab):
+        pad(tab).focus()
+        tab.keyboard.press("Shift+ArrowUp")
+        button(tab, "Add an outlier").click()
+
+    found = objections(tab, BOX, change)
     assert not found, "\n".join(found)
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
@@ -321,10 +283,7 @@ chain"""
 
 @pytest.mark.slow
 def test_the_same_readings_are_alive_in_jupyterlab(browser, tmp_path):
-    notebook = new_notebook(cells=[new_code_cell(LAB_CELL)])
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook.metadata.kernelspec = kernel
-    nbformat.write(notebook, tmp_path / "chain.ipynb")
+    write_notebook(tmp_path / "chain.ipynb", [LAB_CELL])
     tab = browser.new_page(viewport={"width": 1300, "height": 1400})
     errors = []
     tab.on("pageerror", lambda error: errors.append(str(error)))

@@ -2,41 +2,33 @@
 
 import gzip
 
-import nbformat
 import pytest
-from helpers import AXE, swipe, violations
+from helpers import swipe
+from instruments import (
+    PAGE,
+    PHONE,
+    gives_way_on_paper,
+    objections,
+    still_picture,
+    visiting,
+    write_notebook,
+)
+from instruments import pictures as pixels
 from lab import run_all, serve
-from nbformat.v4 import new_code_cell, new_notebook
 
-PAGE = "notebooks/13-laboratory.html"
 BOX = ".se-workshop"
-PIXELS = """canvas => {
-  const { width, height } = canvas;
-  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-  return new Uint32Array(data.buffer).reduce((number, pixel) => (31 * number + pixel) | 0, width);
-}"""
-VIEWS = ("region", "axis", "forces", "work")
 KUTTA = "3 stages, order 3"
 
 
 @pytest.fixture
 def visit(browser, site):
     """Open the page with the workshop; in the end, no script has complained."""
-    contexts, complaints = [], []
+    with visiting(browser, site, BOX) as go:
+        yield go
 
-    def go(address="", **options):
-        context = browser.new_context(**({"viewport": {"width": 1366, "height": 900}} | options))
-        contexts.append(context)
-        tab = context.new_page()
-        tab.on("pageerror", lambda error: complaints.append(str(error)))
-        tab.goto(f"{site}{PAGE}{address}")
-        tab.wait_for_selector(f"{BOX} canvas[aria-label]")
-        return tab
 
-    yield go
-    for context in contexts:
-        context.close()
-    assert not complaints
+def pictures(tab):
+    return pixels(tab, BOX)
 
 
 def entry(tab, name):
@@ -57,11 +49,6 @@ def button(tab, name):
 
 def start_from(tab, name):
     tab.get_by_label("Start from").select_option(label=name)
-
-
-def pictures(tab):
-    tab.wait_for_timeout(100)  # two frames and more
-    return [tab.locator(f"{BOX} .se-view-{name} canvas").evaluate(PIXELS) for name in VIEWS]
 
 
 def type_table(tab, **entries):
@@ -259,21 +246,18 @@ def test_its_script_comes_where_it_is_needed_and_is_small(site, book, visit):
 @pytest.mark.parametrize("width", [390, 1366])
 def test_axe_finds_nothing(visit, width):
     tab = visit(viewport={"width": width, "height": 900})
-    tab.add_script_tag(path=AXE)
-    tab.add_style_tag(content="* { transition: none !important }")
-    found = violations(tab, within=BOX)[0]
-    entry(tab, "b2").fill("x")
-    button(tab, "Keep to compare").click()
-    found += violations(tab, within=BOX)[0]
-    tab.emulate_media(color_scheme="dark")
-    tab.wait_for_function("document.documentElement.dataset.theme === 'dark'")
-    found += violations(tab, "color-contrast", within=BOX)[0]
+
+    def spoil(tab):
+        entry(tab, "b2").fill("x")
+        button(tab, "Keep to compare").click()
+
+    found = objections(tab, BOX, spoil)
     assert not found, "\n".join(found)
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
 def test_a_finger_turns_a_number(visit):
-    tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    tab = visit(**PHONE)
     slider = tab.get_by_label("Turn b1")
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
@@ -326,17 +310,8 @@ def test_forced_colours_leave_everything_to_be_seen(visit):
 
 
 def test_without_scripts_and_on_paper_there_is_a_still_picture(browser, site, visit):
-    context = browser.new_context(java_script_enabled=False)
-    tab = context.new_page()
-    tab.goto(f"{site}{PAGE}")
-    still = tab.locator(f"{BOX} img")
-    assert still.is_visible() and "region of absolute stability" in still.get_attribute("alt")
-    context.close()
-    tab = visit()
-    assert not tab.locator(f"{BOX} img").is_visible()
-    tab.emulate_media(media="print")
-    assert tab.locator(f"{BOX} img").is_visible()
-    assert not tab.locator(f"{BOX} canvas").first.is_visible()
+    assert "region of absolute stability" in still_picture(browser, site, BOX)
+    assert gives_way_on_paper(visit(), BOX)
 
 
 LAB_CELLS = [
@@ -351,10 +326,7 @@ workshop""",
 
 @pytest.mark.slow
 def test_the_same_workshop_is_alive_in_jupyterlab(browser, tmp_path):
-    notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook.metadata.kernelspec = kernel
-    nbformat.write(notebook, tmp_path / "workshop.ipynb")
+    write_notebook(tmp_path / "workshop.ipynb", LAB_CELLS)
     tab = browser.new_page(viewport={"width": 1300, "height": 1200})
     errors = []
     tab.on("pageerror", lambda error: errors.append(str(error)))

@@ -44,7 +44,7 @@ from suspension.least_force import distance_over
 from suspension.practice import errors_of
 from suspension.rides import rides
 from suspension.road import RoadProfile, RoughRoad
-from suspension.small_angle import full_geometry
+from suspension.small_angle import full_geometry, margin_with
 from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
 from suspension.uncertainty import loss_probability
@@ -539,6 +539,17 @@ TABLE = [
         {
             "critical": [*NOT_POSITIVE, 1.2, 10],
             "within": [*NOT_POSITIVE, 1.5],
+            "distance": [*but(NOT_POSITIVE, None), 1e9],
+        },
+        {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
+    ),
+    Row(
+        "margin_with",
+        margin_with,
+        {"robot": ROBOT, "bump": BUMP, "v": 10, "terms": ("places",), "distance": 1.25},
+        {
+            "v": [*NOT_POSITIVE, 1e-6],
+            "terms": [("heights", "sines"), "places", (1,)],
             "distance": [*but(NOT_POSITIVE, None), 1e9],
         },
         {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},

@@ -213,7 +213,9 @@ def test_the_pages_flight_is_that_of_fly(explorers, case, tmp_path):
         events = [(event["wheel"] + 1, event["kind"]) for event in answer["events"]]
         assert events == [(event.wheel, event.kind) for event in flight.events], setting
         for found, event in zip(answer["events"], flight.events, strict=True):
-            assert found["t"] == pytest.approx(event.t, abs=2 * answer["dt"]), setting
+            assert found["t"] == pytest.approx(event.t, abs=PARITY), setting
+            assert found["force"] == pytest.approx(event.force, rel=PARITY, abs=1e-8), setting
+        np.testing.assert_allclose(answer["airtime"], flight.airtime, rtol=0, atol=PARITY)
         highest = flight.gaps.max()
         np.testing.assert_allclose(
             answer["highest"], flight.gaps.max(axis=1), rtol=0, atol=0.01 * highest + 1e-9

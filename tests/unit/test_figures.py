@@ -99,9 +99,9 @@ BRANCHES = [Branch(np.log([1, 2]) + 1j * np.log([300, 900]), None, None, None)]
 
 NU, ZETA = np.geomspace(0.05, 100, 60), np.geomspace(0.01, 0.2, 20)
 CHART = {0.0: 0.4 * NU, 0.03: 1 / NU**2 + NU * np.exp(-NU / 9), 0.4: 1 / NU**2 + 1e-3 / NU}
-PATHS = {
-    "car,\nhump": (NU[20:40], 0.6, NU[20:40] > 2),
-    "coach,\njoint": (NU[40:], 0.01, NU[40:] > 999),
+RIDES_OVER = {
+    "car,\nhump": (Regimes([5, 40, 60], [False, True], "km/h"), 44.0),
+    "coach,\njoint": (Regimes([50, 300], [False], "km/h"), np.nan),
 }
 
 ON_ONE = {
@@ -117,7 +117,7 @@ ON_ONE = {
         NU, CHART, {"skim": 9 / NU}, (2.8, [1, 2], [False, True], [1.5], [[0.05, 1.5]]), 0.03, ax=ax
     ),
     "plot_comb": lambda ax: plot_comb(NU, NU, NU / 2, 2 * NU, 1.1 * NU, ax),
-    "plot_vehicles": lambda ax: plot_vehicles(NU, CHART, PATHS, ax=ax),
+    "plot_vehicles": lambda ax: plot_vehicles(RIDES_OVER, ax),
     "plot_window": lambda ax: plot_window(
         ZETA, 0.2 / ZETA, 0.3 / ZETA, ZETA**-0.5, 3.0, 0.03, 0.07, ax
     ),
@@ -187,7 +187,7 @@ PURE_NUMBERS += [r"heave $\vert Y\vert/a$", r"pitch $L\vert\theta\vert/a$"]
 PURE_NUMBERS += [r"speed $\nu = v/\sigma\omega_0$", r"height $\eta = h_0/(mg/2k)$"]
 PURE_NUMBERS += [r"damping $\zeta = c/\sqrt{2km}$"]
 PURE_NUMBERS += ["Re $z$", "Im $z$", "frequency, computed / true", "damping ratio"]
-UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|m/s²|rad|degrees|%)\)"
+UNITS = r"\((m|s|ms|g|mJ|N|mm|N/m|N s/m|m/s|km/h|m/s²|rad|degrees|%)\)"
 
 
 @pytest.fixture(autouse=True)
@@ -255,7 +255,7 @@ def test_it_draws_on_both_axes_it_is_given_and_returns_them(name):
 def test_without_axes_it_opens_one_figure_whose_axes_have_labels_with_units(name):
     ax = ON_ONE[name](None)
     assert ax.has_data() and len(plt.get_fignums()) == 1
-    if name == "plot_sensitivities":  # its axis across holds names
+    if name in ("plot_sensitivities", "plot_vehicles"):  # an axis of theirs holds names
         return
     if name == "plot_errors":  # its x may be a step or a cost: the caller says which
         ax.set(xlabel="step (s)", ylabel="error (N)")
@@ -554,6 +554,15 @@ def test_a_slope_is_drawn_where_and_as_steep_as_it_was_found():
     near(np.polyfit(*second.get_data(), 1), [0, 0.5], 1e-12)
 
 
+def test_what_the_wheelbase_holds_back_is_seen_beside_the_resonance():
+    gain = np.array([1e-3, 0.1, 16.0, 1.0])
+    _, axes = plt.subplots(1, 2)
+    plot_gains(V[:4], {1.2: gain}, {1.2: 2 * gain}, ([0.4], [0.2]), axes)
+    for ax, high in zip(axes, (16, 32)):
+        low, top = ax.get_ylim()
+        assert ax.get_yscale() == "log" and low < high / 500 and high < top
+
+
 def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
     marks, values = {"now": (800, 1.5), "then": (400, 2)}, K / 100 - C[:, None] - 3
     ax = plot_demand_map(K, C, 9 + values, [0, 5, 9], marks, "acceleration (m/s²)", values)
@@ -565,6 +574,20 @@ def test_a_demand_map_marks_suspensions_and_the_line_of_no_contact():
     near(k / 100, c + 3, 0.02)
     without = plot_demand_map(K, C, values, [1, 5, 9], {}, "compression (mm)", 1 + 0 * values)
     assert len(without.collections) < len(ax.collections)
+
+
+@pytest.mark.parametrize("blank", ["kept", "lost"])
+def test_the_side_of_which_a_map_says_nothing_has_one_tone(blank):
+    contact = 3 + C[:, None] - K / 100
+    ax = plot_demand_map(K, C, contact, [0, 5], {}, "margin (N)", contact, blank)
+    field = ax.collections[1]  # above the map, below the line
+    k, c = np.concatenate([path.vertices for path in field.get_paths()]).T
+    sign = 1 if blank == "kept" else -1
+    inside = sign * (3 + c - k / 100)
+    near([inside.min(), inside.max()], [0, (sign * contact).max()], 1e-12)
+    assert f"contact {blank}" in ax.get_legend_handles_labels()[1]
+    every = plot_demand_map(K, C, contact, [0, 5], {}, "margin (N)", 0 * contact - 1, blank)
+    assert len(every.collections) == (1 if blank == "kept" else 2)
 
 
 def test_best_compromises_that_lose_contact_are_rings():
@@ -655,16 +678,12 @@ def test_a_limit_is_named_along_its_line():
     assert 290 < turned["follow"] < 330 and 0 < turned["throw"] < 60
 
 
-def test_a_vehicle_is_drawn_apart_where_it_loses_contact():
-    ax = plot_vehicles(NU, CHART, {"car": PATHS["car,\nhump"]})
-    kept, lost = (line.get_xydata() for line in ax.lines[3:5])
-    assert not (np.isfinite(kept[:, 1]) & np.isfinite(lost[:, 1])).any()
-    assert (kept[np.isfinite(lost[:, 1]), 0] > 2).all()
-
-
-def test_names_of_vehicles_of_nearly_one_height_stand_on_two_sides():
-    ax = plot_vehicles(
-        NU, CHART, {"a": (NU[9:20], 0.5, NU[9:20] > 9), "b": (NU[9:20], 0.52, NU[9:20] > 9)}
-    )
-    sides = [text.get_ha() for text in ax.texts if text.get_text() in "ab"]
-    assert sorted(sides) == ["left", "right"]
+def test_a_vehicle_has_a_row_in_two_colours_with_its_critical_speed_on_it():
+    ax = plot_vehicles(RIDES_OVER)
+    car = [line for line in ax.lines if len(line.get_ydata()) and not any(line.get_ydata())]
+    kept, lost, critical, heavy = (line.get_xdata() for line in car)
+    assert list(kept) == [5, 40] and list(lost) == [40, 60]
+    assert list(critical) == [40] and list(heavy) == [44]
+    assert car[0].get_color() != car[1].get_color()
+    assert [text.get_text() for text in ax.get_yticklabels()] == list(RIDES_OVER)
+    assert [text.get_text() for text in ax.texts] == ["40"]

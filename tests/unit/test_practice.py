@@ -256,29 +256,29 @@ PLANTED = {
         ),
     ],
     "rk4_step": [
-        ("dt / 2 * k1, t", "dt * k1, t", "k2 go a full step"),
-        ("dt / 2 * k2", "dt / 2 * k1", "of order 2, not 4. Does your k3 use k1"),
-        ("dt * k3", "dt * k2", "k4 go along k2"),
-        ("dt * k3", "dt / 2 * k3", "k4 go half a step"),
-        ("dt / 2 * k2, t", "dt * k2, t", "k3 go a full step"),
-        ("t + dt / 2)", "t)", "k2 and k3 taken at the time t?"),
+        ("dt / 2 * g1, t", "dt * g1, t", "g2 seems to go a full step"),
+        ("dt / 2 * g2", "dt / 2 * g1", "of order 2, not 4. g3 seems to use g1"),
+        ("dt * g3", "dt * g2", "g4 seems to use g2"),
+        ("dt * g3", "dt / 2 * g3", "g4 seems to go half a step"),
+        ("dt / 2 * g2, t", "dt * g2, t", "g3 seems to go a full step"),
+        ("t + dt / 2)", "t)", "g2 and g3 taken at the time t?"),
         ("t + dt", "t + 0 * dt", "Are all slopes taken at the time t?"),
-        ("k3, t + dt)", "k3, t)", "k4 taken at the time t + dt/2, or t"),
-        ("dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)", "dt / 4 * (k1 + k2 + k3 + k4)", "weights 1/4"),
+        ("g3, t + dt)", "g3, t)", "g4 taken at the time t + dt/2, or t"),
+        ("dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)", "dt / 4 * (g1 + g2 + g3 + g4)", "weights 1/4"),
         ("dt / 6", "dt / 8", "Do the weights sum to 1"),
-        ("2 * k2 + 2 * k3", "k2 + k3", "Do the weights sum to 1"),
+        ("2 * g2 + 2 * g3", "g2 + g3", "Do the weights sum to 1"),
         ("dt / 6 *", "1 / 6 *", "not multiplied by dt"),
-        ("return w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)", "return w + dt * k1", "explicit Euler"),
-        ("return w + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)", "return w + dt * k2", "midpoint"),
-        ("k1 + 2 * k2 + 2 * k3 + k4", "2 * k1 + k2 + k3 + 2 * k4", "wrong way round"),
+        ("return w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)", "return w + dt * g1", "explicit Euler"),
+        ("return w + dt / 6 * (g1 + 2 * g2 + 2 * g3 + g4)", "return w + dt * g2", "midpoint"),
+        ("g1 + 2 * g2 + 2 * g3 + g4", "2 * g1 + g2 + g3 + 2 * g4", "wrong way round"),
         (
-            "k1 = g(w, t)",
-            "g_, g = g, lambda w, t: dt * g_(w, t)\n    k1 = g(w, t)",
+            "g1 = g(w, t)",
+            "g_, g = g, lambda w, t: dt * g_(w, t)\n    g1 = g(w, t)",
             "once too often",
         ),
         ("return w + ", "return ", "other than w"),
-        ("k1 + 2 * k2 + 2 * k3 + k4", "k1 + 3 * k2 + k3 + k4", "one before it"),
-        ("dt / 2 * k2, t + dt / 2", "dt / 2 * k2, t + dt / 3", "Without time in g"),
+        ("g1 + 2 * g2 + 2 * g3 + g4", "g1 + 3 * g2 + g3 + g4", "one before it"),
+        ("dt / 2 * g2, t + dt / 2", "dt / 2 * g2, t + dt / 3", "Without time in g"),
     ],
     "rk4": [
         ("round(tfinal / dt) + 1", "round(tfinal / dt)", "last step is missing"),
@@ -483,24 +483,24 @@ PLANTED = {
     ],
     "pair_step": [
         ("return w_new, error", "return w_new - error, error", "second-order result: once"),
-        ("g(w_new, t + dt)", "g(w + dt * k3, t + dt)", "slope at the new w"),
-        ("g(w_new, t + dt)", "g(w_new, t)", "k4 is taken at the time t"),
+        ("g(w_new, t + dt)", "g(w + dt * g3, t + dt)", "slope at the new w"),
+        ("g(w_new, t + dt)", "g(w_new, t)", "g4 is taken at the time t"),
         (
-            "k1 = g(w, t)",
-            "g_, t_ = g, t; g = lambda w, t: g_(w, t_)\n    k1 = g(w, t)",
+            "g1 = g(w, t)",
+            "g_, t_ = g, t; g = lambda w, t: g_(w, t_)\n    g1 = g(w, t)",
             "All slopes are taken at the time t",
         ),
-        ("3 * dt / 4 * k2", "3 * dt / 4 * k1", "k3 probes along k1"),
-        ("3 * dt / 4", "dt / 2", "k3 goes half a step"),
-        ("2 * k1 + 3 * k2 + 4 * k3", "4 * k1 + 3 * k2 + 2 * k3", "in another order"),
+        ("3 * dt / 4 * g2", "3 * dt / 4 * g1", "g3 seems to use g1"),
+        ("3 * dt / 4", "dt / 2", "g3 seems to go half a step"),
+        ("2 * g1 + 3 * g2 + 4 * g3", "4 * g1 + 3 * g2 + 2 * g3", "in another order"),
         ("return w_new, error", "return w_new, error / dt", "not multiplied by dt"),
         ("return w_new, error", "return w_new, w_new - w", "change of the state"),
         ("return w_new, error", "return w_new, w_new - error", "difference of both is asked for"),
         ("return w_new, error", "return error, w_new", "State and error"),
-        (" + k4 / 8", "", "does not count"),
+        (" + g4 / 8", "", "does not count"),
         ("return w_new, error", "return w_new, np.abs(error).max()", "one number for each"),
         ("return w_new, error", "return w_new", "one thing"),
-        ("k4 / 8", "k4 / 9", "both rows of weights"),
+        ("g4 / 8", "g4 / 9", "both rows of weights"),
     ],
     "next_step": [
         ("(order + 1)", "order", "power is 1/order"),
@@ -591,6 +591,36 @@ PLANTED = {
         ("    for low", "    return min(T, key=lambda t: abs(f(t)))\n    for low", "least |f|"),
         ("range(60)", "range(5)", "shorter than roundoff"),
         ("return None", "return -1.0", "never falls"),
+    ],
+    "between": [
+        (
+            "return ends",
+            "return (1 - u) * W[:, j] + u * W[:, j + 1] + 0 * ends\n    return ends",
+            "a straight line",
+        ),
+        ("return ends", "return W[:, j]\n    return ends", "beginning of the step."),
+        (
+            "return ends",
+            "return W[:, j if u < 1 / 2 else j + 1]\n    return ends",
+            "state at the nearest time",
+        ),
+        (
+            "return ends",
+            "return W[:, j] + (t - T[j]) * S[:, j]\n    return ends",
+            "along the slope",
+        ),
+        ("ends + dt * u", "ends + u", "not multiplied by the length"),
+        ("- u * S", "+ u * S", "wrong sign"),
+        (" + dt * u * (1 - u) * ((1 - u) * S[:, j] - u * S[:, j + 1])", "", "slopes are left out"),
+        ("(t - T[j]) / dt", "(T[j + 1] - t) / dt", "have changed places"),
+        ('side="right") - 1', 'side="right")', "the step after"),
+        (
+            'np.searchsorted(T, t, side="right") - 1',
+            'max(np.searchsorted(T, t, side="right") - 2, 0)',
+            "the step before",
+        ),
+        ("dt = T[j + 1]", "j = 0\n    dt = T[j + 1]", "the first step, wherever"),
+        ("3 - 2 * u", "2 - u", "belong to a cubic in t"),
     ],
 }
 
@@ -785,6 +815,13 @@ def locate(f, T):
     return brentq(f, T[falls[0]], T[falls[0] + 1], xtol=1e-14) if len(falls) else None
 """,
     ],
+    "between": [
+        """
+def between(t, T, W, S):
+    from scipy.interpolate import CubicHermiteSpline
+    return list(CubicHermiteSpline(T, np.transpose(W), np.transpose(S))(t))
+""",
+    ],
 }
 
 
@@ -928,8 +965,8 @@ def test_the_references_agree_with_the_package_and_with_scipy():
 
 FOUND = {
     "trapezoid": (1, 8, "b = right @ W[:, j] + dt / 2 * (F(T[j]) + F(T[j + 1]))"),
-    "slopes": (2, 9, "k3 = g(w + dt / 2 * k2, t + dt / 2)"),
-    "clock": (1, 10, "k4 = g(w + dt * k3, t + dt)"),
+    "slopes": (2, 9, "g3 = g(w + dt / 2 * g2, t + dt / 2)"),
+    "clock": (1, 10, "g4 = g(w + dt * g3, t + dt)"),
     "calendar": (1, 2, "T = dt * np.arange(round(tfinal / dt) + 1)"),
     "embedded": (2, 13, "W[:, j + 1] = new"),
 }
@@ -955,7 +992,7 @@ def test_a_hunt_ends_with_order_line_and_repair(name):
             line,
             repaired.replace("dt", "dt * 1.1") if "dt" in repaired else "W[:, j + 1] = new + error",
         ),
-        "no Python": practice.check_hunt(name, order, line, "k3 = = 2"),
+        "no Python": practice.check_hunt(name, order, line, "g3 = = 2"),
         "a name": practice.check_hunt(name, order, line, repaired.split("=")[0] + "= missing"),
         "a number": practice.check_hunt(name, order, line, 4),
         "no order": practice.check_hunt(name, np.nan, line, repaired),

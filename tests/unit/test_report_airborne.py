@@ -132,6 +132,11 @@ def test_the_models_agree_or_not_as_the_numbers_say():
     assert "| 3.9 | 1.9 |" in part.models(*fast, robot)
     cut = {1.2: fly(robot, BUMP, v=1.2, tfinal=0.25)}
     assert "not the same" in part.models(runs, cut | {v: runs[v] for v in (0.5, 5)}, robot)
+    agree = part.rules_apart(runs, flights("k = 793", "relaxes"))
+    assert agree.endswith("agree to a microsecond.") and not faults(agree)
+    assert "are one" in part.rules_apart(nobody, nobody)
+    assert part.rules_apart(*fast).endswith("agree to 0.65\xa0ms.")
+    assert "At 1.2\xa0m/s they do not even" in part.rules_apart({1.2: runs[1.2]}, cut)
 
 
 @pytest.mark.slow

@@ -1,5 +1,7 @@
 """Sentences of Part X, for springs and robots of every kind."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults, fitted
@@ -56,11 +58,12 @@ def test_sentences_about_any_spring_are_sound(k):
         "k less": {"as it is": 1, "contact": 2},
     }
     texts = [
-        part.farthest(STIFFEST, STIFFEST, ASKED),
+        part.farthest(STIFFEST, STIFFEST, ASKED, (3200, 15)),
         part.beaten(robot, []),
         part.beaten(robot, [(700, 3)]),
         part.choice_table(CHOICES, candidates, LIMIT),
         part.rest_note(fitted(k, preload=1.5, curvature=2.0), robot),
+        part.game_note(replace(robot, k2=1.2 * k), fitted(k, preload=1.5, curvature=2.0)),
         part.measured_length(STIFFEST, LIMIT),
         part.between(candidates),
         part.robust_table(least),
@@ -71,21 +74,58 @@ def test_sentences_about_any_spring_are_sound(k):
         assert not faults(text)
 
 
-def test_the_farthest_springs_and_dampers():
-    text = plain(part.farthest(STIFFEST, Choice(SOFT, 1, 0), ASKED))
-    assert "ends at 280.0 N/m and 1.570 N s/m" in text and "dampers must be of 1.970 N s/m" in text
-    assert "**Nowhere**" in part.farthest(None, None, ASKED)
+@pytest.mark.parametrize(
+    ("ends", "words"),
+    [
+        ((3200, 15), "**Where springs are soft and dampers weak**: up to 280 N/m and 1.57 N s/m."),
+        ((3200, 15), "No stiffer spring and no stronger damper of this map"),
+        ((280, 15), "**Where dampers are weak**: up to 1.57 N s/m. No stronger damper of this map"),
+        ((3200, 1.57), "**Where springs are soft**: up to 280 N/m. No stiffer spring of this map"),
+        ((280, 1.57), "with the stiffest springs of this map, and with its strongest dampers"),
+    ],
+)
+def test_the_farthest_springs_and_dampers(ends, words):
+    text = plain(part.farthest(STIFFEST, Choice(SOFT, 1, 0), ASKED, ends))
+    assert words in text and "at 0.25, 1.2, 5 and 10 m/s" in text and not faults(text)
+
+
+def test_where_no_suspension_keeps_contact_none_is_named():
+    assert "**Nowhere**" in part.farthest(None, None, ASKED, (3200, 15))
+
+
+def test_the_room_after_a_lift_off_is_told_apart_from_that_before():
+    pressed = [0.01, 0.02, 0.03, 0.0347]
+    text = plain(part.room_note(ASKED, [0.01, 0.0365, 0.03, 0.0347], pressed, LIMIT))
+    assert "reaches 2.21 at 1.2 m/s" in text and "both wheels press it is 2.10" in text
+    assert not faults(text)
+    assert part.room_note(ASKED, pressed, pressed, LIMIT) == ""
+
+
+@pytest.mark.parametrize(
+    ("kept", "words", "alt"),
+    [
+        ([True, False], "White line: where the least margin is zero.", "A white line parts"),
+        ([True, True], "kept at all four speeds by every suspension", "contact is kept everywhere"),
+        ([False], "No suspension of the map keeps contact", "contact is lost everywhere"),
+    ],
+)
+def test_captions_of_maps_name_a_line_only_where_there_is_one(kept, words, alt):
+    for caption in (part.contact_map(kept, ASKED, ["now", "then"]), part.price_map(kept, ASKED)):
+        assert words in caption.text and alt in caption.alt
+        assert ("White line" in caption.text) == (len(set(kept)) == 2)
+        assert not faults(caption.text) and not faults(caption.alt)
+    assert "more below: now and then." in part.contact_map(kept, ASKED, ["now", "then"]).text
 
 
 @pytest.mark.parametrize(
     ("better", "words"),
     [
-        ([], "**No other.** The present suspension, 793 N/m and 1.50 N s/m, is on the front"),
+        ([], "**Not one.** No suspension of the map is better than the present one, 793 N/m and"),
         (
             [(700, 2.4)],
-            "**One suspension.** The present suspension, 793 N/m and 1.50 N s/m, is not on",
+            "**One suspension.** 700 N/m and 2.40 N s/m are better than the present one, 793 N/m",
         ),
-        ([(700, 2.4)], "700 N/m and 2.40 N s/m, for example, are better in all three"),
+        ([(700, 2.4)] * 2, "**Two suspensions.** 700 N/m and 2.40 N s/m, for example, are better"),
         ([(700, 2.4)] * 12, "**12 suspensions.**"),
     ],
 )
@@ -116,6 +156,15 @@ def test_a_preload_that_the_readings_prove_is_told():
     assert f"rests at {1000 * (load - 1.5) / 793:.1f} mm" in note
 
 
+def test_a_game_with_another_robot_than_the_measured_one_says_so():
+    straight, curved = fitted(793), fitted(793, preload=1.5)
+    assert part.game_note(ROBOT, straight) == ""
+    assert "**symmetric twin**" in part.game_note(replace(ROBOT, c1=2.0), straight)
+    note = plain(part.game_note(ROBOT, curved))
+    assert note.startswith("The readings contradict") and f"{curved.stiffness:.3g} N/m" in note
+    assert part.game_note(replace(ROBOT, c1=2.0), curved).endswith(part.game_note(ROBOT, curved))
+
+
 def test_a_demand_that_is_met_or_cannot_be_is_told():
     table = plain(part.choice_table(CHOICES | {"contact": OWN}, CANDIDATES, LIMIT))
     assert "“contact”: **no change is needed**" in table
@@ -125,7 +174,7 @@ def test_a_demand_that_is_met_or_cannot_be_is_told():
 
 def test_what_a_spring_of_the_measured_length_can_do():
     assert "**no,** the spring must be longer" in part.measured_length(STIFFEST, LIMIT)
-    assert "280.0 N/m, the robot rests at 0.51" in plain(part.measured_length(STIFFEST, 0.05))
+    assert "280 N/m, the robot rests at 0.51" in plain(part.measured_length(STIFFEST, 0.05))
     assert "**yes,**" in part.measured_length(STIFFEST, 0.05)
     assert "nothing to ask" in part.measured_length(None, LIMIT)
 

@@ -157,17 +157,54 @@ def test_steps_too_long_for_the_order_are_told():
     assert "expected factor? No*" in text
 
 
+CRAWLING = Robot(793, 793, c1=60, c2=60)  # its pitch does not swing
+
+
+@pytest.mark.parametrize(
+    ("robot", "dt", "told"),
+    [
+        (ROBOTS["k = 793"], 0.2, "It swings too slowly, and hardly dies away"),
+        (ROBOTS["k = 793"], 0.03, "It swings too slowly, and dies away too slowly"),
+        (ROBOTS["k = 793"], 0.001, "It swings as it should, and dies away as it should"),
+        (Robot(793, 793, c1=30, c2=30), 0.06, "It swings too fast, and dies away too slowly"),
+        (ROBOTS["undamped"], 0.2, "It swings too slowly, and never dies away, as it should not"),
+        (CRAWLING, 0.001, "It creeps back as it should"),
+        (CRAWLING, 0.015, "It creeps back too fast"),
+        (CRAWLING, 0.05, "It flips its sign in every step"),
+    ],
+)
+def test_what_a_long_step_makes_of_the_pitch(robot, dt, told):
+    text = part.coarse(robot, CRANK_NICOLSON, dt)
+    assert text.startswith(f"**{told}.**") and not faults(text)
+
+
+def test_the_numbers_of_a_long_step_are_those_of_a_run():
+    """A mode of the run is multiplied by the same number in every step."""
+    robot, dt = ROBOTS["k = 793"], 0.2
+    text = part.coarse(robot, CRANK_NICOLSON, dt)
+    turned, kept = zip(*re.findall(r"makes ([\d.]+) \D+ keeps ([\d.]+)", text))
+    run, _ = released(robot, dt)
+    k = robot.heave_share.argmin()
+    pitch = np.linalg.solve(robot.eigenvectors, run.W - robot.equilibrium[:, None])[k]
+    computed, true = pitch[1:] / pitch[:-1], robot.eigenvalues[k] * dt
+    angles = abs(true.imag), np.abs(np.angle(computed)).mean()
+    sizes = np.exp(true.real), np.abs(computed).mean()
+    assert [float(x) for x in turned] == pytest.approx(np.array(angles) / (2 * np.pi), rel=0.04)
+    assert [float(x) / 100 for x in kept] == pytest.approx(sizes, rel=0.01)
+
+
+def test_of_a_robot_that_mixes_its_modes_the_one_that_pitches_most_is_told():
+    assert "the mode that pitches most" in part.coarse(ROBOTS["unsymmetric"], CRANK_NICOLSON, 0.2)
+    assert "the robot's pitch" in part.coarse(ROBOTS["k = 793"], CRANK_NICOLSON, 0.2)
+
+
 def test_captions_of_the_road_and_of_long_steps_are_sound():
     run, theta = released(Robot(793, 793), 0.2)
-    captions = (
-        part.road_caption([5, 1.2]),
-        part.coarse_caption(run, theta),
-        part.frame_caption(run, 0.4),
-    )
+    captions = part.road_caption([5, 1.2]), part.coarse_caption(run, theta)
     for caption in captions:
         assert not faults(caption.text) and not faults(caption.alt)
     assert "1.2 and at 5" in captions[0].text and "4.2 times the speed" in captions[0].text
-    assert "10 steps of 0.200" in captions[1].text and "0.4\u00a0s" in captions[2].text
+    assert "10 steps of 0.2\u00a0s" in captions[1].text
     assert "do not lie on it" in captions[1].alt
     run, theta = released(Robot(5, 5), 0.005)
     assert "whose dots lie on it" in part.coarse_caption(run, theta).alt

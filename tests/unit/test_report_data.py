@@ -81,7 +81,7 @@ def test_synthetic_data_are_called_so_and_explained(synthetic):
     assert "21 displacements" in made and "800\u00a0N/m" in made and "2086" in made
     assert "is inside the interval" in words.hindsight(synthetic, fit)
     read = words.read_sentence(synthetic, fit)
-    assert read.startswith("Read from `spring_data.csv`: 21 readings,")
+    assert "`spring_data.csv` holds 21 readings" in words.source_sentence(synthetic)
     assert "from 0 to 1" in read and "16.5\u00a0mm" in read
     assert "−0.12 to 13.28\u00a0N" in read
     assert "792.9\u00a0N/m" in words.slope_sentence(fit) and "slope" not in read

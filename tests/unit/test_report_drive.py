@@ -5,9 +5,10 @@ import re
 import pytest
 from cases import STIFFNESSES, faults
 
+from suspension.contact import Regimes
 from suspension.explorer import explore
 from suspension.explorer.settings import DTS
-from suspension.report.drive import experiments, presets
+from suspension.report.drive import answers, experiments, presets
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import RK4
@@ -31,6 +32,46 @@ def test_every_robot_has_five_sound_experiments(name, critical, flips):
     text = experiments(robot, critical, flips, limit, DTS)
     assert not faults(text)
     assert [line[:2] for line in text.splitlines()] == ["1.", "2.", "3.", "4.", "5."]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("flips", [[], [572.8], [300, 900]])
+def test_every_experiment_has_its_answer(name, flips):
+    robot = ROBOTS[name]
+    limit = RK4.max_stable_dt(robot.eigenvalues)
+    found = Regimes([0.1, 0.436, 7.85, 20.3, 30], [0, 1, 0, 1])
+    asked = experiments(robot, found.critical, flips, limit, DTS).splitlines()
+    text = answers(robot, found, flips, False, limit, DTS)
+    assert len(text.splitlines()) == len(asked) and not faults(text)
+    assert all(line[3:5] == "**" for line in text.splitlines())
+
+
+def answered(**changes):
+    usual = {"regimes": Regimes([0.1, 0.4, 7.9, 30], [0, 1, 0]), "flips": [572.8]}
+    usual |= {"soft_lost": False, "limit": 0.0744, "slider": DTS, "robot": Robot(793, 793)}
+    return plain(answers(**usual | changes))
+
+
+def test_answers_follow_the_robot():
+    text = answered()
+    assert "**Sometimes.** Contact is kept up to 0.400 m/s" in text
+    assert "**The two of the pitch**, which swings at 6.19 Hz" in text
+    assert "swings at 6.19 Hz, in the run at 2.10 Hz; it decays with 1.43 per second" in text
+    assert "**Softer.** Contact is kept with springs up to 573 N/m." in text
+    assert "**1.12 m/s builds it up**" in text
+    other = answered(
+        regimes=Regimes([0.1, 0.4, 30], [0, 1]),
+        soft_lost=True,
+        limit=0.5,
+        robot=Robot(100, 100, c1=40, c2=40),
+    )
+    assert "**No.**" in other and "**None**" in other and "**The decay is another" in other
+    assert "**Stiffer.** Contact is kept with springs from 573 N/m on." in other
+    assert "5." not in other
+    assert "**One of the pitch**" in answered(robot=Robot(100, 100, c1=40, c2=40))
+    assert "contact is kept with every spring" in answered(flips=[])
+    assert "contact is lost with every spring" in answered(flips=[], soft_lost=True)
+    assert "the verdict turns 2 times" in answered(flips=[300, 900])
 
 
 def told(**changes):

@@ -90,7 +90,9 @@ def test_all_texts_are_sound(name):
         part.statics_table(laws, robot),
         part.verdict_table(ASKED, runs),
         part.verdict_sentence(ASKED, runs),
-        part.aftermath_table(ASKED, runs, DELTA_MAX),
+        part.which_turn(ASKED, runs),
+        part.which_stay(critical),
+        part.how_it_grows([1, 10, 100], [np.array([2.0, 5.0, 15.0])]),
         part.geometry_sentence(ASKED, runs, runs),
         *part.margins_caption(critical),
         part.survival_sentence(critical),
@@ -100,6 +102,7 @@ def test_all_texts_are_sound(name):
         part.draws_sentence(4, 4, True),
         part.critical_table(study),
         part.sign_table(study),
+        part.how_many_signed(study),
         part.conclusions(study),
     ]
     for text in texts:
@@ -121,7 +124,14 @@ def test_rest_beyond_the_readings_is_told():
         fit = FITS[name]
         robot, laws = Robot(fit.stiffness, fit.stiffness), laws_of(fit.beta, fit.stiffness)
         text = part.statics_table(laws, robot)
-        assert ("rests beyond" in text) == beyond == ("metal stop. With a stop" in text)
+        assert ("rests beyond" in text) == beyond == ("the metal stop. With a stop" in text)
+
+
+def test_laws_that_are_alike_at_rest_share_a_row():
+    fit = FITS["curved"]
+    rows = part.statics_table(laws_of(fit.beta, fit.stiffness), Robot(667, 667)).splitlines()[2:]
+    names = [row.split("|")[1].strip() for row in rows]
+    assert names == ["line", "parabola, rubber stop and metal stop"]
 
 
 # --- verdicts -------------------------------------------------------------------------------------
@@ -133,22 +143,41 @@ def test_the_verdicts_are_compared_with_those_of_the_line():
     assert "  " not in part.verdict_sentence(ASKED, same)
     turned = part.verdict_sentence(ASKED, {"line": run(5, 1), "stop": run(4, -9)})
     assert "At 0.25 m/s every law" in plain(turned)
-    assert "At 10 m/s contact is kept on the line and **lost** on: stop" in plain(turned)
+    assert "At 10 m/s contact is kept on the line and **lost** on the stop." in plain(turned)
     back = part.verdict_sentence(ASKED, {"line": run(-5, -1), "stop": run(4, 9)})
-    assert "At 0.25 and 10 m/s contact is lost on the line and **kept** on: stop" in plain(back)
+    assert "At 0.25 and 10 m/s contact is lost on the line and **kept** on the stop." in plain(back)
     assert "every law" not in back
+
+
+@pytest.mark.parametrize(
+    ("line", "stop", "words"),
+    [
+        ((5, -1), (4, -9), "**At none.**"),
+        ((5, 1), (4, -9), "**At the fast ones, to lost:** 10 m/s."),
+        ((5, 1), (-4, 9), "**At the slow ones, to lost:** 0.25 m/s."),
+        ((5, -1), (4, 9), "**At the fast ones, to kept:** 10 m/s."),
+        ((5, 1), (-4, -9), "**At the slow and the fast ones, to lost:** 0.25 and 10 m/s."),
+        (
+            (5, -1),
+            (-4, 9),
+            "**At the slow ones, to lost:** 0.25 m/s. **At the fast ones, to kept:** 10 m/s.",
+        ),
+    ],
+)
+def test_which_verdicts_turn_is_answered(line, stop, words):
+    assert plain(part.which_turn(ASKED, {"line": run(*line), "stop": run(*stop)})) == words
 
 
 def test_a_table_tells_where_contact_is_lost():
     table = plain(part.verdict_table(ASKED, {"line": run(5, -1)}))
-    assert "kept, 5.00 N" in table and "lost, front, 0.2000 m" in table
-
-
-def test_after_a_loss_a_table_tells_what_a_ground_that_pushes_does():
-    table = plain(part.aftermath_table(ASKED, {"line": run(5, 5), "stop": run(5, -1)}, DELTA_MAX))
-    assert "| 10 | 2.00 m/s²; 0.61; 0 and 0 | 20.0 m/s²; 0.61; 0 and 50.0 |" in table
-    assert "| 0.25 |" not in table
-    assert "No law loses" in part.aftermath_table(ASKED, {"line": run(5, 5)}, DELTA_MAX)
+    assert "kept, 5.00 N" in table and "lost, 0.2000 m" in table
+    assert "always the front wheel" in table and "*Kept*" in table and "*Lost*" in table
+    both = run(-5, -1)
+    both.wheel[:] = 1, 2
+    table = plain(part.verdict_table(ASKED, {"line": both}))
+    assert "lost, rear, 0.2000 m" in table and "lost, front, 0.2000 m" in table
+    assert "always" not in table and "*Kept*" not in table
+    assert "*Lost*" not in part.verdict_table(ASKED, {"line": run(5, 1)})
 
 
 def test_the_full_geometry_turns_a_verdict_or_does_not():
@@ -165,7 +194,7 @@ def test_the_full_geometry_turns_a_verdict_or_does_not():
     ("line", "other", "words"),
     [
         ([], [], "in the range, and no other law has one."),
-        ([], [3.0], "in the range; there are some on: stop."),
+        ([], [3.0], "in the range; there are some on the stop."),
         ([0.4, 8.0], [0.41, 8.1], "Every critical speed of the line is there"),
         ([0.4, 8.0, 20.0], [0.41, 8.1], "only 0.4 and 8 m/s stay on all laws; 20 m/s belongs to"),
         ([0.4, 8.0], [9.0], "none stays on all laws; 0.4 and 8 m/s belong to"),
@@ -178,10 +207,49 @@ def test_critical_speeds_stay_or_go(line, other, words):
     assert not faults(text)
 
 
+@pytest.mark.parametrize(
+    ("line", "other", "words"),
+    [
+        ([], [3.0], "**The line has none in the range.**"),
+        ([0.4, 8.0], [0.41, 8.1], "**All of them.**"),
+        ([0.4, 8.0], [3.0], "**Not one.**"),
+        ([0.4, 8.0, 20.0], [0.41], "**The slow ones:** 0.4 m/s, one of three."),
+        ([0.4, 8.0, 20.0], [8.1, 20.1], "**The fast ones:** 8 and 20 m/s, two of three."),
+        ([0.4, 8.0, 20.0], [8.1], "**Some of them:** 8 m/s, one of three."),
+    ],
+)
+def test_which_critical_speeds_stay_is_answered(line, other, words):
+    critical = {"line": np.array(line), "stop": np.array(other)}
+    assert plain(part.which_stay(critical)) == words
+
+
+@pytest.mark.parametrize(
+    ("powers", "words"),
+    [
+        ([], "**No stop is met at these speeds.**"),
+        (
+            [0.5, 0.48],
+            "**Like its root:** over the last factor of ten the acceleration goes",
+        ),
+        ([0.5, 0.48], "to the power 0.48 to 0.50."),
+        ([1.0], "**In proportion to it:**"),
+        ([0.02], "**Up to a ceiling:**"),
+        ([0.5, 0.2], "**In none of these ways yet:**"),
+    ],
+)
+def test_how_the_acceleration_grows_is_answered(powers, words):
+    ratio = np.geomspace(0.1, 1e4, 26)
+    felt = [np.where(ratio < 10, 3.0, 3.0 * (ratio / 10) ** p) for p in powers]
+    text = part.how_it_grows(ratio, felt)
+    assert words in text and not faults(text)
+
+
 def test_the_stiffness_of_the_stop_matters_or_does_not():
     assert "every stop that was tried" in part.stiffness_sentence({1.2: []})
     turn = plain(part.stiffness_sentence({1.2: [], 10: [0.5793]}))
-    assert "At 10 m/s it turns at 0.579 times" in turn and "At 1.2 m/s" in turn
+    assert (
+        "At 10 m/s it turns where the stop is 0.579 times as stiff" in turn and "At 1.2 m/s" in turn
+    )
     assert "the same" not in part.stiffness_sentence({10: [2.0, 30.0]})
     assert not faults(part.stiffness_caption([0.1, 1, 10], {10: [2, 1, 3]}).alt)
 
@@ -199,7 +267,10 @@ def test_the_caption_tells_the_observed_orders():
     caption = part.order_caption(10, {"rubber stop": 2.1, "metal stop": 1.9})
     for text in caption:
         assert "2.1 (rubber stop) and 1.9 (metal stop)" in text and not faults(text)
-    assert not faults(part.order_caption(10, {}).text)
+        assert "no order" not in text
+    unread = part.order_caption(10, {"rubber stop": 2.1}, ["no stop"]).text
+    assert "With no stop the error is near" in unread and "no order can be read" in unread
+    assert not faults(unread) and not faults(part.order_caption(10, {}, ["metal stop"]).text)
 
 
 # --- how well it is known -------------------------------------------------------------------------
@@ -237,9 +308,9 @@ def test_shares_claim_no_more_than_the_draws_can_tell():
     table = plain(part.sign_table(study_of((5, 0.03), (5, -9))))
     assert "| 0.25 | kept, 4.95 to 5.05 N | kept, 4.95 to 5.05 N | **kept** |" in table
     assert "| 10 | 20 % lost | lost | **open** |" in table
-    assert "128 draws that agree leave up to 2.3 % of doubt" in table
+    assert "If 128 draws agree, up to 2.3 % of doubt is left" in table
     few = plain(part.sign_table(study_of((5,), (5,), asked=(1,), n=64)))
-    assert "64 draws that agree leave up to 4.6 % of doubt" in few and "**open**" in few
+    assert "If 64 draws agree, up to 4.6 % of doubt is left" in few and "**open**" in few
 
 
 @pytest.mark.parametrize(
@@ -253,7 +324,10 @@ def test_a_verdict_is_signed_or_open(line, stop, word):
 def test_critical_speeds_have_the_interval_of_the_draws_in_which_they_are():
     critical = {"line": np.array([0.4, 8.0]), "stop": np.array([0.41])}
     text = plain(part.critical_table(study_of((1, 1), (1, 1), critical)))
-    assert "| stop | 0.410 | 0.410 to 0.410 | 128 of 128 |" in text.replace("0.4100", "0.410")
+    assert "| stop | 0.410 | 0.410 to 0.410 |" in text.replace("0.4100", "0.410")
+    assert "found" not in text  # in all draws
+    alike = {"line": np.array([0.4]), "stop": np.array([0.4])}
+    assert "| line and stop | 0.4000 |" in part.critical_table(study_of((1, 1), (1, 1), alike))
     assert part.critical_table(study_of((1, 1), (1, 1))).startswith("No law")
     study = study_of((1, 1), (1, 1), {"line": [8.0]})
     study.line.followed[0][:] = np.nan
@@ -292,3 +366,20 @@ def test_the_conclusions_follow_from_the_tables():
     both = conclude((0.01, 5), (0.01, -5))
     assert "At 10 m/s the verdict is **open**: it is decided by" in both
     assert "At 0.25 m/s the verdict is **open**: the margin" in both
+
+
+@pytest.mark.parametrize(
+    ("line", "stop", "words"),
+    [
+        ((5, 1), (5, 1), "**At all two.**"),
+        ((5, 1), (5, -30), "**At one of them:** 0.25 m/s."),
+        ((0.01, 1), (0.01, -30), "**At fewer:** none."),
+    ],
+)
+def test_how_many_verdicts_are_signed_is_answered(line, stop, words):
+    assert plain(part.how_many_signed(study_of(line, stop))) == words
+
+
+def test_one_of_three_is_fewer():
+    study = study_of((5, 1, 1), (5, -30, -30), asked=(0.25, 5, 10))
+    assert plain(part.how_many_signed(study)) == "**At fewer:** 0.25 m/s."

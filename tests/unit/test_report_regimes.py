@@ -204,7 +204,9 @@ def test_ranges_told_as_one_have_the_larger_excess_of_the_two():
     swapped = FAR[0]._replace(times=FAR[1].times), FAR[1]._replace(times=FAR[0].times), FAR[2]
     for beyond in (FAR, swapped):
         assert plain(part.beyond_words(KEPT, beyond)) == f"from {words}"
-        assert f"{words} it is compressed" in plain(part.verdict(KEPT, beyond))
+        assert plain(part.verdict(KEPT, beyond)).endswith(
+            f"further than it was measured: from {words}."
+        )
 
 
 def test_where_the_spring_was_not_measured_is_doubted():
@@ -254,6 +256,41 @@ def test_the_full_geometry_is_told_inside_and_outside_the_interval(intervals, fu
     assert ("costs more" in text) == ("out of" in text)
 
 
+@pytest.mark.parametrize(
+    ("intervals", "full", "answer"),
+    [
+        ([FIRST, SECOND], [0.4379, 7.9], "**Each does.**"),
+        ([FIRST, GONE], [0.4379, None], "**Each does.**"),
+        ([FIRST, SECOND], [0.44383, 7.8465], "**Some leave it:** one of two."),
+        ([FIRST, SECOND], [None, 9], "**All leave it.**"),
+        ([GONE], [None], "**There is none to ask.**"),
+        ([], [], "**There is none to ask.**"),
+    ],
+)
+def test_whether_a_critical_speed_stays_inside_is_answered(intervals, full, answer):
+    assert plain(part.stays_inside(intervals, full)) == answer
+
+
+@pytest.mark.parametrize(
+    ("after", "words"),
+    [
+        ([LOW, 0.446, 7.55, 8.48, HIGH], "**It falls by more,** from 20.3 to 8.48 m/s: by a f"),
+        ([LOW, 0.446, 7.55, 8.48, HIGH], "factor of 2.4."),
+        ([LOW, 0.446, 7.55, 10.1, HIGH], "**It is halved, too,** from 20.3 to 10.1 m/s."),
+        ([LOW, 0.446, 7.55, 15, HIGH], "**It falls by less,** from 20.3 to 15.0 m/s: by a factor"),
+        ([LOW, 0.446, 7.55, 25, HIGH], "**It does not fall:** it goes from 20.3 to 25.0 m/s."),
+        ([LOW, 0.5, HIGH], "by a factor of 41. The window before it has closed."),
+        ([LOW, HIGH], "**There is none to compare:**"),
+    ],
+)
+def test_what_becomes_of_the_last_critical_speed_is_answered(after, words):
+    verdicts = [i % 2 == 1 for i in range(len(after) - 1)]
+    text = plain(part.last_speed(WINDOW, Regimes(after, verdicts)))
+    assert words in text and not faults(text)
+    assert ("has closed" in text) == (len(after) == 3)
+    assert "has closed" not in part.last_speed(RISES, RISES)  # there was none
+
+
 def by_stiffness(*speeds):
     """As if each of the readings of some data had these critical speeds, m/s."""
     stiffnesses = fitted(793).stiffnesses(7.14)
@@ -282,7 +319,8 @@ def test_what_rests_on_a_spring_beyond_its_range_is_marked():
     assert "none" in plain(slow) and "572.8" in plain(fast)
     assert "| 5.59 |" in plain(slow) and "| lost* |" in plain(fast)  # after a loss only a sign
     note = part.confidence_note(speeds, 792.9)
-    assert "at 0.5 m/s: **if the spring stays linear**" in plain(note)
+    assert "The asterisk, at 0.5 m/s, marks what holds only **if the spring" in plain(note)
+    assert "| confidence that contact is lost, with $k$ = the" in part.confidence_table(speeds)
     assert "asterisk" not in plain(part.confidence_note(asked(0.6), 792.9))
     assert not faults(slow + fast) and not faults(note)
 
@@ -292,3 +330,16 @@ def test_the_map_names_its_stiffness():
     assert "slope at zero" in plain(caption.text) and "Hatched" not in plain(caption.text)
     assert not faults(caption.alt)
     assert "Hatched" in plain(part.map_caption(fitted(250).slope, [50, 475], (1.2,), True).text)
+
+
+def test_the_stiffnesses_stand_side_by_side_if_their_critical_speeds_do():
+    side_by_side = plain(part.consequence_table(by_stiffness([0.4, 8], [0.41, 8.1], [0.42, 8.2])))
+    head, _, *rows = side_by_side.splitlines()
+    assert head == "| stiffness | first (m/s) | second (m/s) |" and len(rows) == 3
+    assert rows[2].endswith("| 0.420 (0.407 to 0.433) | 8.20 (7.95 to 8.45) |")
+    for speeds in (([0.4, 8], [0.41], [0.42, 8.2]), ([], [], [])):
+        text = plain(part.consequence_table(by_stiffness(*speeds)))
+        assert "| critical speed (m/s) |" in text and not faults(text)
+    pairs = by_stiffness([0.4], [0.41], [0.42])
+    pairs[1][1][0] = pairs[1][1][0]._replace(dies=End(990.4, 0.446, "pair"))
+    assert "exists only for k" in plain(part.consequence_table(pairs))

@@ -183,7 +183,7 @@ def test_nothing_is_doubted_without_a_reason(how):
 
 def test_the_caution_names_its_subject():
     fit = UNUSUAL["both ways"]
-    assert caution(fit).startswith("The interval supposes independent errors")
+    assert caution(fit).startswith("The interval assumes independent errors")
     assert "they cannot be relied on" in caution(fit, "The intervals")
     assert "it cannot be relied on" in caution(fit, "The F test")
 
@@ -204,6 +204,16 @@ def test_who_kept_the_promise_is_counted():
     told = [row.split(" | ")[-1] for row in text.splitlines()[2:5]]
     assert told == ["kept |", "kept |", "broken |"]
     assert "| p\u00a0=\u00a03 | 97.0\u00a0% |" in text
+
+
+def test_the_share_of_the_single_intervals_is_told_beside_both_guesses():
+    told = {0.9025: "In about 90.25\u00a0%", 0.95: "In about 95\u00a0%", 0.92: "Between the two"}
+    for share, head in told.items():
+        text = regression.both_right(share, 10_000)
+        assert text.startswith(f"**{head}:**") and "of the 10,000 experiments" in text
+        assert not faults(text)
+    assert "91.8\u00a0%" in regression.both_right(0.918, 10_000)
+    assert regression.both_right(0.92, 100).startswith("**In about 90.25")  # too few to tell
 
 
 def test_boxes_that_miss_are_counted_in_the_caption():

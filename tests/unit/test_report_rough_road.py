@@ -30,24 +30,32 @@ def plain(text):
 
 def test_who_flies_where():
     text = plain(part.flights(NAMES, SPEEDS, LINEAR, SOME, ridden([[0, 1], [0, 1], [0, 1]])))
-    assert "**“as it is” flies at 1.2 and 5 m/s**, on every road at 5 m/s." in text
+    assert (
+        "**As it is, the robot flies on every road at 5 m/s and on some roads at 1.2 m/s.**" in text
+    )
     assert "scatters less than the linear robot's" in text
-    assert "Without the short waves it never does at 1.2 m/s." in text
-    assert "“soft” flew on none of 3 roads.** With 95 % confidence" in text and "63 %" in text
-    assert not faults(text)
+    assert "Without the short waves it flies only at 5 m/s." in text
+    assert "**With the suspension “soft” it flew on none of 3 roads.** With 95 % confidence" in text
+    assert "63 %" in text and not faults(text)
 
 
 @pytest.mark.parametrize(
     ("found", "longer", "absent"),
     [
         (ridden([[1, 1], [0, 1], [0, 0]]), SOME, "on every road"),
+        (ridden([[1, 1], [2, 1], [3, 4]]), SOME, "on some roads"),
         (SOME, SOME, "Without the short waves"),
         (ridden([[2, 9]] * 3, force=(3.2, 6)), SOME, "scatters less"),
     ],
 )
 def test_nothing_is_said_that_was_not_found(found, longer, absent):
     text = part.flights(NAMES, SPEEDS, LINEAR, found, longer)
-    assert "flies at" in text and absent not in text and not faults(text)
+    assert "flies on" in text and absent not in text and not faults(text)
+
+
+def test_flights_that_need_short_waves_everywhere_are_told_so():
+    text = part.flights(NAMES, SPEEDS, LINEAR, SOME, NONE)
+    assert "Without the short waves it never flies." in text and "only" not in text
 
 
 def test_the_table_has_means_and_scatter():

@@ -162,3 +162,25 @@ def test_an_instant_that_says_the_opposite_is_told():
 def test_the_caption_of_the_slopes_says_how_far_the_step_ends_from_the_truth():
     caption = part.slopes_caption(1.05, 1.0)
     assert not faults(caption.text) and "within 5.0\u00a0%" in caption.text
+
+
+def won_back(off=0.0):
+    """The answer for Crank-Nicolson at a quarter of the step, its error smaller by a part."""
+    robot = Robot(793, 793)
+    fourth, second = released(robot, 0.001), released(robot, 0.001, CRANK_NICOLSON)
+    third = released(robot, 0.00025, CRANK_NICOLSON)
+    theta, theta_finer = (exact.flat_ground(robot, START, run.T)[2] for run in (fourth, third))
+    W = third.W.copy()
+    W[2] = theta_finer + (1 - off) * (W[2] - theta_finer)
+    return part.won_back(fourth, second, replace(third, W=W), (theta, theta_finer))
+
+
+def test_what_shorter_steps_win_back_is_what_the_order_promises_or_is_told_not_to_be():
+    promise = "The step is 4 times shorter, and a method of order 2 promises $4^2 = 16$"
+    assert won_back() == f"**A factor of 16.** {promise}."
+    late = won_back(off=-0.5)
+    assert late.startswith("**A factor of 11.** ") and late.endswith("still too long for it.")
+    assert promise in late
+    assert won_back(off=1 - 1e-9).startswith(f"**All of it.** {promise}; here")
+    for text in (late, won_back()):
+        assert not faults(text)

@@ -126,10 +126,43 @@ def test_dips_that_are_seen_and_dips_that_are_not():
         assert words in caption.text and not faults(caption.text) and not faults(caption.alt)
 
 
+@pytest.mark.parametrize(
+    ("coarse", "sharp", "words"),
+    [
+        ([1], [1, 2, 3], "The better method misses more. A tolerance"),
+        ([1, 2], [1, 2], "The better method misses as many. A tolerance"),
+        ([1, 2], [], "The better method misses fewer. A tolerance"),
+        ([], [], "A tolerance bounds"),
+    ],
+)
+def test_a_sharp_tolerance_promises_nothing_between_steps(coarse, sharp, words):
+    assert part.missed_sentence(coarse, sharp).startswith(words)
+
+
 def test_verdicts_read_from_samples_are_counted():
     speeds, exact = np.array([19.0, 20.0, 21.0]), np.array([0.2, -0.1, -0.3])
     sampled = {0.001: exact + 0.4, 0.0003: exact + 0.15, 0.0001: exact}
-    text = part.sampled_verdicts(sampled, exact)
-    assert text.splitlines()[2:] == ["| 1.0 | 3 | 2 |", "| 0.30 | 3 | 1 |", "| 0.10 | 3 | 0 |"]
+    text = plain(part.sampled_verdicts(sampled, exact))
+    wrong = "2 with a sample every 1.0 ms, 1 with a sample every 0.30 ms and 0 with a sample every"
+    assert text.startswith(f"Wrong verdicts out of 3: {wrong} 0.10 ms. Every wrong one says *kept*")
     for told in (text, *part.sampled_caption(speeds, sampled)):
         assert not faults(told)
+    assert "That is luck" in part.sampled_verdicts({0.0001: exact}, exact)
+    assert "Every wrong one" not in part.sampled_verdicts({0.001: -exact}, exact)
+
+
+@pytest.mark.parametrize(
+    ("off", "words"),
+    [
+        ([0, 0.2, 1.04], "**Too high only.** Of 3 least values that were read from samples none"),
+        ([0, 0.2, 1.04], "the worst lies 1.0 N above it"),
+        ([0, 1e-9, 0], "and here none above"),
+        ([0, -1e-9, 0.3], "the worst lies 0.30 N above it"),
+        ([0.1, -0.02, 0.3], "**Either way, here.** Of 3 least values that were read from samples"),
+        ([0.1, -0.02, 0.3], "by up to 0.020 N"),
+    ],
+)
+def test_in_which_direction_samples_are_wrong(off, words):
+    exact = np.array([0.2, -0.1, -0.3])
+    text = plain(part.sampled_direction({0.001: exact + off}, exact))
+    assert words in text and not faults(text)

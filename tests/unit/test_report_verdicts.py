@@ -1,7 +1,9 @@
 """Sentences about the wheels' contact, for springs, robots and speeds of every kind."""
 
+import re
 from functools import cache
 
+import numpy as np
 import pytest
 from cases import DELTA_MAX, STIFFNESSES, faults, fitted
 
@@ -65,7 +67,7 @@ def test_the_spring_beyond_its_measured_range_is_named():
     robot = Robot(FITTED, FITTED)
     ratios = compressions(robot)
     text = part.contact(drives(robot), ratios, robot, STRAIGHT)
-    assert "asked stiffness" in text and "as far as it was measured" in text
+    assert "stiffness of Question 1" in text and "as far as it was measured" in text
     assert "**if the spring stays linear**" in text and "Even at rest" not in text
     assert "At 1.2, 5 and 10\u00a0m/s they hold" in text
     soft = Robot(250, 250)
@@ -87,7 +89,7 @@ def test_stiffnesses_that_were_chosen_are_not_called_measured():
         for ratios in ([0.2] * 4, [0.2, 1.3, 1.4, 1.5]):
             text = part.spring_sentence(runs, ratios, robot, fitted(793, curvature=4))
             assert "stiffnesses that were chosen" in text and told in text
-            assert "asked stiffness" not in text and "contradict" not in text
+            assert "stiffness of Question 1" not in text and "contradict" not in text
             assert "as far as the spring of Part I was measured" in text
             assert not faults(text)
 
@@ -119,24 +121,37 @@ def test_one_speed_reads_well():
 def test_another_scheme_agrees_or_is_told_not_to():
     for robot in (Robot(793, 793), Robot(250, 250), *OTHERS.values()):
         runs, others = drives(robot, scheme=RK4), drives(robot)
-        text = part.same_by_another_scheme(runs, others, compressions(robot))
+        text = part.same_by_another_scheme(runs, others)
         assert not faults(text)
         assert "The verdicts agree with those of Part II" in text
         assert ("“after” a loss" in text) == any(run.loss for run in runs)
     other = drives(Robot(987, 987))
-    text = part.same_by_another_scheme(drives(Robot(793, 793)), other, compressions(robot))
+    text = part.same_by_another_scheme(drives(Robot(793, 793)), other)
     assert "do **not** agree" in text
 
 
 @pytest.mark.parametrize("k", [250, 793, 2300])
 def test_half_the_step(k):
     robot = Robot(k, k)
-    text = part.same_at_half_the_step(drives(robot), drives(robot, 0.0005), compressions(robot))
+    runs, halved = drives(robot), drives(robot, 0.0005)
+    text = part.same_at_half_the_step(runs, halved)
     assert not faults(text)
     assert "do not change" in text
-    other = drives(Robot(987, 987))
-    changed = part.same_at_half_the_step(drives(Robot(793, 793)), other, compressions(robot))
+    assert (f"lost at v = {speed_list(LOST[k])}: " in text) == bool(LOST[k])
+    lost = [pair for pair in zip(runs, halved) if pair[0].loss]
+    assert ("Where contact is kept" in text) == (len(lost) < len(runs))
+    if lost:
+        assert "Where contact is kept" not in part.same_at_half_the_step(*zip(*lost))
+    changed = part.same_at_half_the_step(drives(Robot(793, 793)), drives(Robot(987, 987)))
     assert "the conclusions **change**" in changed
+
+
+def test_how_far_the_least_forces_move_is_told_of_what_is_kept_alone():
+    runs, halved = drives(Robot(793, 793)), drives(Robot(793, 793), 0.0005)
+    (told,) = re.findall(r"at most ([\d.]+)", part.same_at_half_the_step(runs, halved))
+    kept = [(a, b) for a, b in zip(runs, halved) if not a.loss]
+    moved = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in kept)
+    assert float(told) == pytest.approx(moved, rel=0.05)
 
 
 @pytest.mark.parametrize("k", STIFFNESSES)

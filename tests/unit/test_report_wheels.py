@@ -30,9 +30,10 @@ RULES = {"follows": run(1.0, 1.0), "relaxes": run(2.0, 2.0)}
 
 def test_the_rules_are_compared_with_the_lightest_wheels():
     text = part.surviving_rule(RULES, [run(2.02, 2.0), run(2.0, 1.98)])
-    assert "| follows | 100\xa0% |" in text and "| relaxes | 1.0\xa0% |" in text
+    assert "| follows | 50\xa0% too short |" in text and "| relaxes | 1.0\xa0% too long |" in text
     none = {"follows": run(0.0, 0.0), "relaxes": run(1.0, 1.0)}
-    assert "nothing is decided" in part.surviving_rule(none, [run(1.0, 1.0)])
+    for rules, wheel in ((none, run(1.0, 1.0)), (RULES, run(0.0, 1.0))):
+        assert "nothing is decided" in part.surviving_rule(rules, [wheel])
 
 
 V = np.geomspace(0.1, 30, 200)
@@ -41,15 +42,16 @@ WINDOW = Regimes([0.1, 0.4, 8, 20, 30], [False, True, False, True])
 
 def test_faster_is_safer_up_to_the_heaviest_wheel_of_the_window():
     mass = np.where(WINDOW(V), 0, np.where(V < 1, np.inf, 0.1 / V))
-    words = part.heaviest_sentence(WINDOW, V, mass)
-    assert "lighter than 12\xa0g a pair" in words and "from 8.00 to 20.0\xa0m/s" in words
+    words = part.heaviest_sentence(WINDOW, V, mass, 1.5)
+    assert "lighter than 12\xa0g a pair, 0.8\xa0% of the mass of the body, and" in words
+    assert "from 8.00 to 20.0\xa0m/s" in words
 
 
 def test_without_a_window_there_is_no_claim_about_it():
     mass = np.where(V < 1, np.inf, 0.0)
-    words = part.heaviest_sentence(Regimes([0.1, 0.4, 30], [False, True]), V, mass)
+    words = part.heaviest_sentence(Regimes([0.1, 0.4, 30], [False, True]), V, mass, 1)
     assert "not found again" in words and "Faster" not in words
-    free = part.heaviest_sentence(WINDOW, V, np.full(V.shape, np.inf))
+    free = part.heaviest_sentence(WINDOW, V, np.full(V.shape, np.inf), 1)
     assert "what it likes" in free and "Faster" not in free
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from suspension.contact import critical_speeds, critical_stiffness, exact_loss, margin, minima
-from suspension.exact import Crossing, _modes
+from suspension.exact import Crossing, modes
 from suspension.flight import fly
 from suspension.forces import first_loss
 from suspension.least_force import roundoff
@@ -88,7 +88,7 @@ def test_no_caller_can_poison_a_cache():
     for array in (
         crossing.lam,
         crossing.right,
-        *_modes(robot),
+        *modes(robot),
         robot.A,
         robot.k,
         robot.eigenvalues,

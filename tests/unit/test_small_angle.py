@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from suspension.contact import critical_speeds
+from suspension.contact import critical_speeds, margin
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
-from suspension.small_angle import full_geometry
+from suspension.small_angle import TERMS, full_geometry, margin_with
 
 BUMP = GaussianBump()
 ROBOT = Robot(793, 793)
@@ -74,3 +74,33 @@ def test_the_change_is_of_second_order_in_the_angle():
 def test_where_there_is_none_nearby_none_is_told():
     v = critical_speeds(ROBOT, BUMP, 0.1, 1)[0]
     assert full_geometry(ROBOT, BUMP, v, within=0.01) is None
+
+
+UNSYMMETRIC = Robot(700, 900, m=1.3, Izz=0.02, L1=0.09, L2=0.13, c1=1.2, c2=1.9)
+
+
+@pytest.mark.parametrize("robot", [ROBOT, UNSYMMETRIC], ids=["symmetric", "unsymmetric"])
+@pytest.mark.parametrize("v", [0.43, 1.2, 10])
+def test_without_a_term_it_is_the_exact_margin_and_with_all_a_rigid_body(robot, v):
+    assert margin_with(robot, BUMP, v, ()) == pytest.approx(margin(robot, BUMP, v), abs=1e-3)
+    rigid = margin_of_a_rigid_body(robot, v)
+    assert margin_with(robot, BUMP, v, TERMS) == pytest.approx(rigid, abs=1e-3)
+
+
+def test_the_places_of_the_wheels_matter_most_and_every_term_a_little():
+    v = critical_speeds(ROBOT, BUMP, 0.1, 1)[0]
+    changes = {term: margin_with(ROBOT, BUMP, v, [term]) for term in TERMS}
+    assert all(abs(change) > 0.01 for change in changes.values())
+    assert changes["places"] > 5 * max(abs(changes["heights"]), abs(changes["levers"]))
+
+
+def test_what_each_term_does_to_a_force_is_of_third_order_in_the_angle():
+    # Bump and gravity are scaled alike, so all motions are, and every angle.
+    low = GaussianBump(height=BUMP.height / 4)
+    soft = replace(ROBOT, g=ROBOT.g / 4)
+    for term in TERMS:
+        small, large = (
+            margin_with(r, b, 1.2, [term]) - margin_with(r, b, 1.2, [])
+            for r, b in ((soft, low), (ROBOT, BUMP))
+        )
+        assert small / large == pytest.approx(1 / 4**3, rel=0.2)

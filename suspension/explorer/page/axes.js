@@ -1,6 +1,7 @@
-// Logarithmic axes and straight lines on them, for the chart and for a curve that a reader draws.
+// Axes: logarithmic ones and straight lines on them, for the chart and for a curve that a reader draws,
+// and plain ones.
 
-import { clamp, powers, show } from "./pen.js";
+import { clamp, powers, show, ticks } from "./pen.js";
 
 /** A frame of logarithmic axes: where an x and a y lie in it, and what lies at a place. */
 export function logFrame(w, h, [x0, x1], [y0, y1], left = 38) {
@@ -53,4 +54,32 @@ export function drawLine({ g, stroke, line, text }, name, [from, to], { left, ri
   };
   const isAway = ([, y]) => !(Math.abs(y - avoid) <= 20);
   return () => places.filter(isAway).some(write) || places.some(write);
+}
+
+/** A frame of plain axes, so many pixels from the edges of a picture: where an x and a y lie in it. */
+export function linearFrame(w, h, [x0, x1], [y0, y1], inset, edge = 0) {
+  const [left, right, top, bottom] = [inset.left, w - inset.right, inset.top, h - inset.bottom];
+  return {
+    ...{ left, right, top, bottom, x: [x0, x1], y: [y0, y1] },
+    px: (x) => left + edge + ((right - left - 2 * edge) * (x - x0)) / (x1 - x0),
+    py: (y) => bottom - ((bottom - top) * (y - y0)) / (y1 - y0),
+  };
+}
+
+/** Round numbers along plain axes, those of y `scale` times as large, and what they count. */
+export function drawScales({ stroke, line, text }, frame, names, scale = 1) {
+  const { left, right, bottom, top, x, y, px, py } = frame;
+  text(names[1], 0, 13, { colour: "ink", bold: true });
+  text(names[0], right, bottom + 29, { align: "right" });
+  stroke("line", 1);
+  for (const at of ticks(...y.map((end) => scale * end), 5)) {
+    line(left, py(at / scale), right, py(at / scale));
+    text(show(at), left - 6, py(at / scale) + 4, { align: "right" });
+  }
+  for (const at of ticks(...x, 4)) {
+    line(px(at), bottom, px(at), bottom + 4);
+    text(show(at), px(at), bottom + 15, { align: "center" });
+  }
+  stroke("soft", 1);
+  line(left, top, left, bottom, right, bottom);
 }

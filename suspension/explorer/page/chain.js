@@ -1,10 +1,10 @@
 // From a reading to a verdict: readings that one drags, and beside them the ellipse of the two
 // coefficients that a linear spring has not, and the critical speeds over the stiffness.
 
-import { drawAxes, logFrame } from "./axes.js";
+import { drawAxes, drawScales, linearFrame, logFrame } from "./axes.js";
 import { button, make, write } from "./dom.js";
 import { makeHistory } from "./history.js";
-import { begin, clamp, enlargement, ratioOf, show, ticks } from "./pen.js";
+import { begin, clamp, enlargement, ratioOf, show } from "./pen.js";
 import { fitReadings, follow, makeBranch, whyNot } from "./readings.js";
 import { coloursOf, onTheme } from "./theme.js";
 import {
@@ -20,7 +20,8 @@ import {
 
 const NEAR = 24, // pixels from a reading at which one takes hold of it
   PULL = 8, // pixels that a finger goes before it moves one
-  INSET = { left: 44, right: 12, top: 24, bottom: 33 }; // as the style sheet has it
+  INSET = { left: 44, right: 12, top: 24, bottom: 33 }, // as the style sheet has it
+  EDGE = 8; // pixels beside the first and the last reading
 const round = (force) => Math.round(1e4 * force) / 1e4;
 
 export function renderChain(model, el) {
@@ -158,7 +159,7 @@ export function renderChain(model, el) {
     return [(clientX - left) / zoom, (clientY - top) / zoom];
   };
   const near = (event) => {
-    const { px, py } = linearFrame(...panels[0].size, ...view),
+    const { px, py } = linearFrame(...panels[0].size, ...view, INSET, EDGE),
       [x, y] = spot(event);
     const away = readings()
       .map(([place, force], i) => ({ i, by: Math.hypot(px(place) - x, py(force - line(place)) - y) }))
@@ -190,7 +191,7 @@ export function renderChain(model, el) {
     const down = event.clientY - hold.y;
     hold.pulls ||= Math.abs(down) > PULL;
     if (!hold.pulls) return;
-    const { top, bottom } = linearFrame(...panels[0].size, ...view),
+    const { top, bottom } = linearFrame(...panels[0].size, ...view, INSET, EDGE),
       [low, high] = view[1],
       off = line(readings()[at][0]);
     move(clamp(hold.force - (down * (high - low)) / (bottom - top), low + off, high + off), false);
@@ -243,7 +244,7 @@ export function renderChain(model, el) {
   }
 
   function drawReadings(p, w, h) {
-    const frame = linearFrame(w, h, ...view),
+    const frame = linearFrame(w, h, ...view, INSET, EDGE),
       { left, right, top, bottom, px, py } = frame,
       places = Array.from({ length: 61 }, (_, i) => view[0][0] + ((view[0][1] - view[0][0]) * i) / 60);
     drawScales(p, frame, ["δ/δmax", isLarge ? "force beside the first line (N)" : "force (N)"]);
@@ -276,7 +277,7 @@ export function renderChain(model, el) {
           base = Math.max(...first.joint[j].map(Math.abs), 1e-6 * largest);
         return base * 2 ** Math.max(0, Math.ceil(Math.log2(need / base))) * 1.05;
       }),
-      frame = linearFrame(w, h, [-reach[0], reach[0]], [-reach[1], reach[1]]),
+      frame = linearFrame(w, h, [-reach[0], reach[0]], [-reach[1], reach[1]], INSET, EDGE),
       { left, right, top, bottom, px, py } = frame;
     drawScales(p, frame, ["β₀ (N)", "β₂ (N)"]);
     p.inside(left, top, right - left, bottom - top, () => {
@@ -421,32 +422,6 @@ export function renderChain(model, el) {
     cancelAnimationFrame(scheduled);
     root.remove();
   };
-}
-
-/** A frame of plain axes: where an x and a y lie in it. */
-function linearFrame(w, h, [x0, x1], [y0, y1]) {
-  const [left, right, top, bottom] = [INSET.left, w - INSET.right, INSET.top, h - INSET.bottom];
-  return {
-    ...{ left, right, top, bottom, x: [x0, x1], y: [y0, y1] },
-    px: (x) => left + 8 + ((right - left - 16) * (x - x0)) / (x1 - x0),
-    py: (y) => bottom - ((bottom - top) * (y - y0)) / (y1 - y0),
-  };
-}
-
-function drawScales({ stroke, line, text }, { left, right, bottom, top, x, y, px, py }, names) {
-  text(names[1], 0, 13, { colour: "ink", bold: true });
-  text(names[0], right, bottom + 29, { align: "right" });
-  stroke("line", 1);
-  for (const at of ticks(...y, 5)) {
-    line(left, py(at), right, py(at));
-    text(show(at), left - 6, py(at) + 4, { align: "right" });
-  }
-  for (const at of ticks(...x, 4)) {
-    line(px(at), bottom, px(at), bottom + 4);
-    text(show(at), px(at), bottom + 15, { align: "center" });
-  }
-  stroke("soft", 1);
-  line(left, top, left, bottom, right, bottom);
 }
 
 /** The region of the two coefficients, as a path. */

@@ -77,7 +77,7 @@ export function bindControls(box, model) {
  * What a pointer that has taken the handle does with it: the place follows the pointer without a
  * jump, and comes back to the very value with it. On the bare track the slider's own place counts.
  */
-function makeHold(slider, scale, model, trait) {
+export function makeHold(slider, scale, model, trait) {
   let start = null,
     x = 0;
   const travel = () => slider.getBoundingClientRect().width - HANDLE;

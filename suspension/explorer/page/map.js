@@ -77,10 +77,10 @@ export function drawMap({ w, h, shade, stroke, line, text, legend, inside, dot }
 }
 
 /** Where the margin is zero: short straight lines through the squares of the map. */
-function zeroLine({ margins, speeds, stiffnesses }) {
+export function zeroLine({ margins, speeds, stiffnesses }) {
   const lines = [];
   for (let i = 1; i < margins.length; i++) {
-    for (let j = 1; j < COLUMNS; j++) {
+    for (let j = 1; j < speeds.length; j++) {
       const corners = [
         [i - 1, j - 1],
         [i - 1, j],

@@ -17,6 +17,8 @@ import {
 const TOLERANCE = 1e-12; // of |R| <= 1 and of whole numbers of steps, as in Python
 const SPEEDS = 128;
 const MOST = 5; // changes within one step
+const REFINED = 30, // looks into a step for the moment of a change
+  CLOSE = 1e-5; // of the step, from the last secant to the next: that one is right to the last digits
 
 /** A table that Python packed as little-endian doubles. */
 const unpack = (view) =>
@@ -432,8 +434,7 @@ function zero(f, a, b, fa, fb) {
  * The robot with forces that switch off and on: for each set of wheels that press, the same linear
  * model with the others' forces left out, w' = (S + P s C) w + P s D u + e. The set follows from
  * the conditions that Python handed over: each is a quantity of either wheel that must be positive,
- * or zero. Where the set changes, the step is parted at the zero of the straight line between its
- * ends. Null if the scheme cannot take such a step.
+ * or zero. Where the set changes, the step is parted. Null if the scheme cannot take such a step.
  */
 export function fly(data, robot, road, settings, memory, method = finest(data, robot, settings)) {
   const { v } = settings,
@@ -492,20 +493,25 @@ function finest(data, robot, settings) {
  */
 function part(motion, start, dt, set, before, after, events) {
   const { w, feel, press, advance, prepare, v } = motion;
-  const saved = new Float64Array(4);
+  const saved = w.slice();
   let t = start,
     left = dt,
     [first, last] = [before.slice(), after.slice()];
   for (let tries = 0; tries < MOST && left > 0; tries++) {
     const next = press(last);
     if (next === set) return set;
-    const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(motion, first, last, i) : Infinity));
+    const feelAt = (share, found) => {
+      w.set(saved); // back to the last change
+      advance(prepare(set, share * left), t);
+      feel(t + share * left, found);
+    };
+    const parts = [0, 1].map((i) =>
+      (set ^ next) & (1 << i) ? turn(motion, first, last, i, feelAt) : Infinity,
+    );
     const share = Math.min(Math.max(Math.min(...parts), 1e-6), 1);
-    if (tries) w.set(saved); // back to the last change
-    advance(prepare(set, share * left), t);
+    feelAt(share, first);
     t += share * left;
     left = share < 1 ? (1 - share) * left : 0;
-    feel(t, first);
     for (const i of [0, 1]) {
       if (parts[i] > share + 1e-9) continue;
       set ^= 1 << i;
@@ -601,17 +607,44 @@ function makeMotion(data, robot, road, v, scheme) {
 }
 
 /**
- * Where, from 0 to 1, wheel i changes, on straight lines between the ends of a step: it lands at
- * the last of its conditions, and leaves when the first one fails.
+ * Where, from 0 to 1, wheel i changes in a step: it lands at the last of its conditions, and leaves
+ * when the first one fails. On straight lines between the ends of the step, and from there to the
+ * zero itself by `feelAt(share, found)`, which feels the conditions at a share of the step.
  */
-function turn({ press, count }, before, after, i) {
-  const found = [];
-  for (let j = i; j < count; j += 2) {
-    const [a, b] = [before[j], after[j]];
-    if (a > 0 !== b > 0) found.push(a / (a - b));
+function turn({ press, count }, before, after, i, feelAt) {
+  const own = [];
+  for (let j = i; j < count; j += 2) own.push(j);
+  const crossed = own.filter((j) => before[j] > 0 !== after[j] > 0);
+  if (!crossed.length) return 1;
+  const straight = crossed.map((j) => before[j] / (before[j] - after[j])),
+    x = press(after) & (1 << i) ? Math.max(...straight) : Math.min(...straight),
+    sizes = own.map((j) => Math.abs(before[j] - after[j]) || 1),
+    found = new Float64Array(count);
+  /** Positive while all conditions hold. */
+  const holds = (values) => Math.min(...own.map((j, n) => values[j] / sizes[n]));
+  const at = (share) => {
+    feelAt(share, found);
+    return holds(found);
+  };
+  return bracketed(at, x, holds(before), holds(after));
+}
+
+/** A zero of f between 0 and 1, where it has the values fa and fb, from a guess on: secants, in brackets. */
+function bracketed(f, guess, fa, fb) {
+  if (fa > 0 === fb > 0) return guess; // it begins at a zero
+  let [a, b, x] = [0, 1, guess],
+    [before, fBefore] = guess < 0.5 ? [b, fb] : [a, fa];
+  for (let n = 0; n < REFINED; n++) {
+    const fx = f(x),
+      secant = x - (fx * (x - before)) / (fx - fBefore);
+    if (fx > 0 === fa > 0) a = x;
+    else b = x;
+    [before, fBefore] = [x, fx];
+    const next = secant >= a && secant <= b ? secant : (a + b) / 2;
+    if (Math.abs(next - x) < CLOSE) return next;
+    x = next;
   }
-  if (!found.length) return 1;
-  return press(after) & (1 << i) ? Math.max(...found) : Math.min(...found);
+  return x;
 }
 
 /** How long each wheel bears no force, s. */

@@ -1,8 +1,8 @@
 // Robots at several speeds, each in a lane of its own, on one road and by one clock.
 
 import { airborne } from "./model.js";
-import { drawRobot } from "./panels.js";
 import { clamp } from "./pen.js";
+import { drawRobot } from "./robot.js";
 import { fractionAt } from "./scene.js";
 import { laneWords } from "./words.js";
 

@@ -1,5 +1,24 @@
 // What one can take away: the pictures, the numbers, and the settings as lines of Python.
 
+import { button, write } from "./dom.js";
+
+const COPY = "Copy the Python lines";
+
+/** A button that copies lines, or at least selects them; what comes back makes it offer that again. */
+export function addCopy(parent, code) {
+  const copy = button(parent, COPY);
+  copy.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(code.textContent);
+      write(copy, "Copied");
+    } catch {
+      getSelection().selectAllChildren(code);
+      write(copy, "Selected: copy it with your keys");
+    }
+  });
+  return () => write(copy, COPY);
+}
+
 function save(name, blob) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);

@@ -4,7 +4,7 @@ import { button, make, write } from "./dom.js";
 import { makeHistory } from "./history.js";
 import { plain } from "./pen.js";
 import { numbersOf, runOf, SETTINGS, settingsOf, writeHash } from "./state.js";
-import { pythonOf, savePicture, saveTable } from "./take.js";
+import { addCopy, pythonOf, savePicture, saveTable } from "./take.js";
 
 const KEYS = { undo: "Control+Z", redo: "Control+Shift+Z" };
 const press = (button, pressed) => button.setAttribute("aria-pressed", String(pressed));
@@ -145,16 +145,7 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
     button(list, "Numbers (CSV)").addEventListener("click", () =>
       saveTable(shown.scene(), model.get("motion")),
     );
-    const copy = button(list, "Copy the Python lines");
-    copy.addEventListener("click", async () => {
-      try {
-        await navigator.clipboard.writeText(code.textContent);
-        write(copy, "Copied");
-      } catch {
-        getSelection().selectAllChildren(code);
-        write(copy, "Selected: copy it with your keys");
-      }
-    });
+    const offer = addCopy(list, code);
     const fill = () => {
       if (!menu.open) return;
       const settings = numbersOf(model, SETTINGS);
@@ -170,6 +161,6 @@ export function makeTools(frame, data, model, shown, speaker, painter, act) {
     document.addEventListener("pointerdown", leave);
     undo.push(() => document.removeEventListener("pointerdown", leave));
     speaker.onSettled(fill);
-    speaker.onSettled(() => write(copy, "Copy the Python lines"));
+    speaker.onSettled(offer);
   }
 }
