@@ -61,7 +61,7 @@ def test_stores_figures_but_neither_widgets_nor_errors(path):
     mimes = {mime for output in outputs for mime in output.get("data", {})}
     rich = {mime for mime in mimes if mime.startswith(("image/", "application/"))}
     assert rich <= {"image/svg+xml"}
-    live = "show_figure|explore|Prediction|Workshop|Chain|Own"  # these as still pictures
+    live = "show_figure|explore|Prediction|Workshop|Chain|Own|Game"  # these as still pictures
     shown = re.compile(rf"\b({live})\(")
     shows = sum(bool(shown.search(cell.source)) for cell in code_cells(path))
     assert sum("image/svg+xml" in output.get("data", {}) for output in outputs) == shows
