@@ -285,7 +285,7 @@ def how_it_grows(ratio, felt):
     last = np.asarray(ratio) >= ratio[-1] / 10
     logs = np.log(np.asarray(ratio)[last])
     powers = [np.polyfit(logs, np.log(np.asarray(values)[last]), 1)[0] for values in felt]
-    ends = sorted({fixed(min(powers), 2), fixed(max(powers), 2)})
+    ends = dict.fromkeys(fixed(power, 2) for power in (min(powers), max(powers)))
     power_law = f"goes like the stiffness to the power {join(ends, 'to')}"
     said = f"over the last factor of ten the acceleration {power_law}"
     for answer, power in POWERS.items():

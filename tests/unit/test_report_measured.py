@@ -235,6 +235,7 @@ def test_which_critical_speeds_stay_is_answered(line, other, words):
         ([1.0], "**In proportion to it:**"),
         ([0.02], "**Up to a ceiling:**"),
         ([0.5, 0.2], "**In none of these ways yet:**"),
+        ([0.4, -0.25], "to the power −0.25 to 0.40."),
     ],
 )
 def test_how_the_acceleration_grows_is_answered(powers, words):
