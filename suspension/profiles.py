@@ -437,8 +437,8 @@ def stand_in(road):
     """The Gaussian bump that is as high and as steep as a road in pieces.
 
     A Gaussian bump is steepest sigma from its top, with a slope of ``height / (sqrt(e) sigma)``;
-    so ``sigma = |height| / (sqrt(e) slope)``. Height and slope are those that the limits *follow*
-    and *skim* ask for; of the way between them a bump may know nothing.
+    so ``sigma = |height| / (sqrt(e) slope)``. For a robot so fast that the body stands still (*skim*)
+    it is as high as the road; of what else the road's shape does it knows nothing.
 
     Parameters
     ----------
