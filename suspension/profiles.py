@@ -437,8 +437,8 @@ def stand_in(road):
     """The Gaussian bump that is as high and as steep as a road in pieces.
 
     A Gaussian bump is steepest sigma from its top, with a slope of ``height / (sqrt(e) sigma)``;
-    so ``sigma = |height| / (sqrt(e) slope)``. For a robot so fast that the body stands still (*skim*)
-    it is as high as the road; of what else the road's shape does it knows nothing.
+    so ``sigma = |height| / (sqrt(e) slope)``. Where the damper pulls at the steepest place (*skim*)
+    it stands for the road; of what else there is in the road's shape it knows nothing.
 
     Parameters
     ----------
