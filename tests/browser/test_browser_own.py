@@ -213,7 +213,7 @@ def test_axles_change_together_or_not_and_unequal_ones_have_no_groups(visit):
     button(tab, "Both axles alike").click()
     put(tab, "k2", "900")
     assert field(tab, "k1").input_value() == "500" and not table(tab, "Groups")
-    words = tab.locator(f"{BOX} .se-sight .se-words").inner_text()
+    words = tab.locator(f"{BOX} .se-reading").inner_text()
     assert "is not symmetric" in words and "“Both axles alike” makes the symmetric robot" in words
     drawn = pictures(tab)
     button(tab, "Both axles alike").click()  # the remedy
@@ -286,7 +286,7 @@ def test_a_road_is_drawn_with_the_keys(visit):
     choose(tab, "Take", "level, to draw on")
     settle(tab)
     assert said(tab).startswith("The road is level")
-    assert "draw one, paste one" in tab.locator(f"{BOX} .se-sight .se-words").inner_text()
+    assert "draw one, paste one" in tab.locator(f"{BOX} .se-reading").inner_text()
     pad(tab).focus()
     assert pad(tab).get_attribute("role") == "application"
     for _ in range(8):

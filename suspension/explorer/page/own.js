@@ -111,6 +111,7 @@ export function renderOwn(model, el) {
     body = make(root, "div", "se-body"),
     sight = make(body, "div", "se-sight"),
     said = make(sight, "p", "se-result", { role: "status" }),
+    reading = make(body, "p", "se-words se-reading"),
     roadBox = make(body, "div", "se-view se-view-road"),
     sheet = make(body, "div", "se-sheet"),
     forcesBox = make(body, "div", "se-view se-view-forces"),
@@ -537,7 +538,6 @@ export function renderOwn(model, el) {
   // ---- what one reads
 
   const words = {
-    chart: make(sight, "p", "se-words"),
     speeds: make(texts, "p", ""),
     modes: make(texts, "p", ""),
   };
@@ -645,7 +645,7 @@ export function renderOwn(model, el) {
     const { tone, words: verdict } = tellVerdict(scene);
     sight.dataset.tone = tone;
     write(said, verdict);
-    write(words.chart, tellChart(scene, facts));
+    write(reading, tellChart(scene, facts));
     write(words.speeds, tellSpeeds(scene));
     write(words.modes, tellModes(scene));
     write(roadWords, tellStandIn(scene));
