@@ -505,9 +505,7 @@ function part(motion, start, dt, set, before, after, events) {
       advance(prepare(set, share * left), t);
       feel(t + share * left, found);
     };
-    const parts = [0, 1].map((i) =>
-      (set ^ next) & (1 << i) ? turn(motion, first, last, i, feelAt) : Infinity,
-    );
+    const parts = [0, 1].map((i) => ((set ^ next) & (1 << i) ? turn(first, last, i, feelAt) : Infinity));
     const share = Math.min(Math.max(Math.min(...parts), 1e-6), 1);
     feelAt(share, first);
     t += share * left;
@@ -607,42 +605,28 @@ function makeMotion(data, robot, road, v, scheme) {
 }
 
 /**
- * Where, from 0 to 1, wheel i changes in a step: it lands at the last of its conditions, and leaves
- * when the first one fails. On straight lines between the ends of the step, and from there to the
- * zero itself by `feelAt(share, found)`, which feels the conditions at a share of the step.
+ * Where, from 0 to 1, wheel i changes in a step: where the least of its conditions is zero, each in units
+ * of its own change. `feelAt(share, found)` feels them there; secants, in brackets, lead to the zero.
  */
-function turn({ press, count }, before, after, i, feelAt) {
-  const own = [];
-  for (let j = i; j < count; j += 2) own.push(j);
-  const crossed = own.filter((j) => before[j] > 0 !== after[j] > 0);
-  if (!crossed.length) return 1;
-  const straight = crossed.map((j) => before[j] / (before[j] - after[j])),
-    x = press(after) & (1 << i) ? Math.max(...straight) : Math.min(...straight),
-    sizes = own.map((j) => Math.abs(before[j] - after[j]) || 1),
-    found = new Float64Array(count);
-  /** Positive while all conditions hold. */
-  const holds = (values) => Math.min(...own.map((j, n) => values[j] / sizes[n]));
-  const at = (share) => {
-    feelAt(share, found);
-    return holds(found);
-  };
-  return bracketed(at, x, holds(before), holds(after));
-}
-
-/** A zero of f between 0 and 1, where it has the values fa and fb, from a guess on: secants, in brackets. */
-function bracketed(f, guess, fa, fb) {
-  if (fa > 0 === fb > 0) return guess; // it begins at a zero
-  let [a, b, x] = [0, 1, guess],
-    [before, fBefore] = guess < 0.5 ? [b, fb] : [a, fa];
+function turn(before, after, i, feelAt) {
+  const found = before.slice(),
+    sizes = before.map((value, j) => Math.abs(value - after[j]) || 1);
+  const least = (values) =>
+    values.reduce((low, value, j) => ((j & 1) === i ? Math.min(low, value / sizes[j]) : low), Infinity);
+  let [a, b, x] = [0, 1, 0],
+    [last, fLast] = [1, least(after)],
+    fx = least(before);
+  const isUp = fLast > 0;
+  if (fx > 0 === isUp) return 1; // it begins at a zero
   for (let n = 0; n < REFINED; n++) {
-    const fx = f(x),
-      secant = x - (fx * (x - before)) / (fx - fBefore);
-    if (fx > 0 === fa > 0) a = x;
-    else b = x;
-    [before, fBefore] = [x, fx];
-    const next = secant >= a && secant <= b ? secant : (a + b) / 2;
+    const secant = x - (fx * (x - last)) / (fx - fLast),
+      next = secant >= a && secant <= b ? secant : (a + b) / 2;
     if (Math.abs(next - x) < CLOSE) return next;
-    x = next;
+    [last, fLast, x] = [x, fx, next];
+    feelAt(x, found);
+    fx = least(found);
+    if (fx > 0 === isUp) b = x;
+    else a = x;
   }
   return x;
 }
