@@ -21,26 +21,13 @@ PDF = ROOT / "_build" / "pdf"
 ANSWERS = "book/answers"
 NEXT = re.compile(r'<link rel="next"[^>]*href="([^"#]+)')
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-MARGINS = {"top": "16mm", "bottom": "18mm", "left": "20mm", "right": "20mm"}
+MARGINS = {"top": "18mm", "bottom": "20mm", "left": "20mm", "right": "20mm"}
 FOOT = """<div style="font: 8pt sans-serif; width: 100%; text-align: center; color: #444">
 <span class="pageNumber"></span></div>"""
 STYLE = """
-html { font-size: 9.5pt; }
-body { background: #fff; color: #000; line-height: 1.4; }
-main, main :is(.bd-content, .bd-article-container, .bd-article) {
-  max-width: none !important; padding: 0 !important; margin: 0 !important;
-}
-main :is(p, ul, ol, dl, blockquote, .admonition, details) { max-width: none !important; }
-main :is(p, ul, ol, figure, .cell, div.math) { margin-block: 0.6em; }
-main :is(h1, h2, h3, h4) { margin-block: 1em 0.4em; }
-main pre { font-size: 8pt; line-height: 1.3; padding: 0.5em 0.8em; }
-main figure :is(svg, img) { max-height: 95mm; }
-main :is(th, td) { padding-block: 0.15em !important; }
-main :is(th, td) p { margin: 0; }
-main :is(pre, .highlight, .cell, .cell_input, .cell_output, details) {
-  break-inside: auto !important; overflow: visible !important; /* a box that scrolls never breaks */
-}
-main pre { orphans: 4; widows: 4; }
+html { font-size: 10.5pt; }
+body { background: #fff; color: #000; }
+main { max-width: none; padding: 0; }
 article.page { break-before: page; }
 article.page:first-of-type { break-before: auto; }
 .sheets a { display: flex; line-height: 1.35; color: inherit; text-decoration: none; }
