@@ -21,15 +21,37 @@ PDF = ROOT / "_build" / "pdf"
 ANSWERS = "book/answers"
 NEXT = re.compile(r'<link rel="next"[^>]*href="([^"#]+)')
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-MARGINS = {"top": "18mm", "bottom": "20mm", "left": "20mm", "right": "20mm"}
+MARGINS = {"top": "16mm", "bottom": "18mm", "left": "20mm", "right": "20mm"}
 FOOT = """<div style="font: 8pt sans-serif; width: 100%; text-align: center; color: #444">
 <span class="pageNumber"></span></div>"""
 STYLE = """
-html { font-size: 10.5pt; }
+html { font-size: 13px; }
 body { background: #fff; color: #000; }
 main { max-width: none; padding: 0; }
-article.page { break-before: page; }
+article.page { break-before: page; --measure: 100%; line-height: 1.4; }
 article.page:first-of-type { break-before: auto; }
+article.page :is(p, ul, ol) { margin-bottom: 0.6em; }
+article.page :is(h2, h3, h4) { margin: 1.1em 0 0.5em; }
+article.page h1 { font-size: 1.9rem; margin: 0 0 0.7em; }
+article.page h2 { font-size: 1.5rem; }
+article.page h3 { font-size: 1.2rem; }
+article.page h4 { font-size: 1.05rem; }
+article.page table { margin: 0.5em auto; line-height: 1.25; }
+article.page :is(td, th) { padding: 0.15em 0.6em; }
+article.page :is(td, th) p { margin: 0; }
+article.page .leads { break-after: avoid; } /* a sentence stays with its table */
+article.page figure { margin: 0.6em 0; }
+article.page figcaption { margin-top: 0.3em; }
+article.page .figure-svg { max-height: 80mm; }
+article.page :is(div.cell, div.cell_input, div.cell_output) { margin: 0.3em 0; padding: 0; }
+/* Chromium breaks no box that scrolls, and no flexible one as the theme's around listings. */
+article.page :is(div.cell, div.cell_input, div.cell_output, div[class*=highlight-]),
+article.page :is(div.highlight, pre) { display: block; break-inside: auto; overflow: visible; }
+article.page div.highlight pre {
+  padding: 0.4em 0.5em; font-size: 0.8rem; line-height: 1.25; orphans: 4; widows: 4;
+}
+article.page .se-layout > :not(.se-place) { display: none; }
+article.page :is(button, input, select) { display: none; }
 .sheets a { display: flex; line-height: 1.35; color: inherit; text-decoration: none; }
 .sheets a.inner { padding-left: 1.5em; }
 .sheets a .dots { flex: 1; border-bottom: 1px dotted #888; margin: 0 0.4em 0.3em; }
@@ -65,6 +87,10 @@ def article(name, names):
             details.decompose()  # plumbing
         else:
             details["open"] = ""  # proofs and solutions unfold
+    for table in body.find_all("table"):
+        lead = table.find_previous("p")
+        if lead and not lead.find_parent("table"):
+            lead["class"] = [*lead.get("class", []), "leads"]
     prefix = name.replace("/", "-")
     for node in body.find_all(id=True):
         node["id"] = f"{prefix}--{node['id']}"

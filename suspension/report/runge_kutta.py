@@ -199,8 +199,8 @@ def comparison(first, second, exact):
             "method": run.scheme.name,
             r"$\Delta t$ (s)": f"{run.dt:g}",
             "evaluations": str(evaluations(run.scheme, len(run.T) - 1)),
-            "largest error (rad)": number(error.max(), 2),
-            r"error at $t_\text{final}$ (rad)": number(error[-1], 2),
+            "largest error (rad)": number(error.max()),
+            r"error at $t_\text{final}$ (rad)": number(error[-1]),
         }
         for run, error in zip(runs, errors)
     ]

@@ -108,3 +108,15 @@ def test_the_answer_sheet_prints_the_five_figures_of_the_page(printed, book):
     shown = [image["aria-label"] for image in page.select("svg.if-wide, svg.wide")]
     assert len(shown) == 5
     assert sorted(figures(printed["answers"])) == sorted(shown)
+
+
+def test_the_answer_sheet_can_be_handed_in(printed):
+    assert len(printed["answers"].pages) <= 12
+
+
+def test_the_book_without_its_reference_can_be_bound(printed):
+    book = printed["book"]
+    parts = [entry for entry in book.outline if not isinstance(entry, list)]
+    at = [book.get_destination_page_number(entry) for entry in parts]
+    (i,) = [i for i, entry in enumerate(parts) if entry.title.startswith("Reference to")]
+    assert len(book.pages) - (at[i + 1] - at[i]) <= 150
