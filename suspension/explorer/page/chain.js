@@ -2,6 +2,7 @@
 // coefficients that a linear spring has not, and the critical speeds over the stiffness.
 
 import { drawAxes, drawScales, linearFrame, logFrame } from "./axes.js";
+import { mostReadings } from "./chain_link.js";
 import { button, make, write } from "./dom.js";
 import { makeHistory } from "./history.js";
 import { begin, clamp, enlargement, ratioOf, show } from "./pen.js";
@@ -30,7 +31,7 @@ export function renderChain(model, el) {
     { start } = facts,
     first = fitReadings(start, facts),
     largest = Math.max(...start.map(([, force]) => Math.abs(force))),
-    most = facts.quantiles.t.length + 3,
+    most = mostReadings(facts),
     key = Number((largest / 600).toPrecision(1)),
     preload = Number((largest / 20).toPrecision(1));
   const root = make(el, "div", "suspension-explorer se-from-readings"),

@@ -2,15 +2,13 @@
 
 import { renderGame } from "./game.js";
 import { PREFIX, readLink, writeLink } from "./game_link.js";
+import { startAll } from "./near.js";
 import { makeModel } from "./values.js";
 
-function start() {
-  document.querySelectorAll(".suspension-laboratory.se-game").forEach((box, index) => {
-    const model = makeModel(JSON.parse(box.querySelector(".se-state").textContent));
-    const game = renderGame(model, box.querySelector(".se-place"), index === 0 ? address : undefined);
-    box.classList.add("se-live");
-    if (index === 0) follow(model, game, box);
-  });
+function start(box, index) {
+  const model = makeModel(JSON.parse(box.querySelector(".se-state").textContent));
+  const game = renderGame(model, box.querySelector(".se-place"), index === 0 ? address : undefined);
+  if (index === 0) follow(model, game, box);
 }
 
 /** The address of an attempt, which becomes that of the page. */
@@ -30,5 +28,4 @@ function follow(model, game, box) {
   addEventListener("popstate", go);
 }
 
-if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", start);
-else start();
+startAll("se-game", start);

@@ -2,37 +2,35 @@
 // set last is there on the next visit.
 
 import { followAddress } from "./address.js";
+import { startAll } from "./near.js";
 import { renderOwn } from "./own.js";
 import { PREFIX, readLink, readState, writeLink } from "./own_state.js";
 import { makeModel } from "./values.js";
 
-function start() {
-  document.querySelectorAll(".suspension-laboratory.se-own").forEach((box, index) => {
-    const values = JSON.parse(box.querySelector(".se-state").textContent),
-      model = makeModel(values),
-      key = `suspension-own ${location.pathname} ${index}`,
-      { facts } = values;
-    const recalled = recall(key, facts);
-    const isSaid =
-      index === 0 &&
-      followAddress(model, box, {
-        prefix: PREFIX,
-        names: ["state"],
-        read(hash) {
-          const state = readLink(hash, facts);
-          return state && { state };
-        },
-        write: (model) => writeLink(model.get("state")),
-      });
-    if (recalled && !isSaid) model.set("state", recalled);
-    model.on("change:state", () => {
-      try {
-        localStorage.setItem(key, JSON.stringify(model.get("state")));
-      } catch {} // no room, or not allowed: then it is forgotten
+function start(box, index) {
+  const values = JSON.parse(box.querySelector(".se-state").textContent),
+    model = makeModel(values),
+    key = `suspension-own ${location.pathname} ${index}`,
+    { facts } = values;
+  const recalled = recall(key, facts);
+  const isSaid =
+    index === 0 &&
+    followAddress(model, box, {
+      prefix: PREFIX,
+      names: ["state"],
+      read(hash) {
+        const state = readLink(hash, facts);
+        return state && { state };
+      },
+      write: (model) => writeLink(model.get("state")),
     });
-    renderOwn(model, box.querySelector(".se-place"));
-    box.classList.add("se-live");
+  if (recalled && !isSaid) model.set("state", recalled);
+  model.on("change:state", () => {
+    try {
+      localStorage.setItem(key, JSON.stringify(model.get("state")));
+    } catch {} // no room, or not allowed: then it is forgotten
   });
+  renderOwn(model, box.querySelector(".se-place"));
 }
 
 /** The state of the last visit, if it can be read. */
@@ -44,5 +42,4 @@ function recall(key, facts) {
   }
 }
 
-if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", start);
-else start();
+startAll("se-own", start);

@@ -1,7 +1,7 @@
 // A Butcher tableau (a, b, c) and what follows from it alone: order conditions, stability function,
 // A- and L-stability, the longest stable step. As `suspension.schemes` does it, with the same tolerances.
 
-import { characteristic, divide, evaluate, roots } from "./linear.js";
+import { characteristic, divide, evaluate, roots, solve } from "./linear.js";
 
 const ROUNDOFF = 64 * 2 ** -52;
 const TOLERANCE = 1e-12; // of coefficients that cancel
@@ -60,10 +60,10 @@ export function readEntry(text) {
 }
 
 /** A number as one would type it: a fraction of small numbers if it is one, else all its digits. */
-export function writeEntry(value) {
+export function writeEntry(value, near = 1e-14) {
   for (let q = 1; q <= 400; q++) {
     const p = Math.round(value * q);
-    if (Math.abs(value - p / q) < 1e-14 * Math.max(1, Math.abs(value))) return q === 1 ? `${p}` : `${p}/${q}`;
+    if (Math.abs(value - p / q) < near * Math.max(1, Math.abs(value))) return q === 1 ? `${p}` : `${p}/${q}`;
   }
   return String(value);
 }
@@ -108,7 +108,7 @@ const RAISED = "⁰¹²³⁴⁵";
 
 /** The sum that a tree stands for, as "b·c A c²" names it: products by component, A by rows. */
 function nameOf(tree) {
-  const names = tree.map((branch) => (branch.length ? `A${inner(branch)}` : "c"));
+  const names = tree.map((branch) => (branch.length ? `A${bracketed(branch)}` : "c"));
   const leaves = names.filter((name) => name === "c").length,
     others = names.filter((name) => name !== "c");
   const power = leaves > 1 ? `c${RAISED[leaves]}` : leaves ? "c" : "";
@@ -122,7 +122,7 @@ function nameOf(tree) {
         : others.join(""))
   );
 }
-function inner(tree) {
+function bracketed(tree) {
   const name = nameOf(tree);
   return /[()]/.test(name) ? `(${name})` : name;
 }
@@ -176,6 +176,73 @@ function trim(coefficients) {
 /** R = P / Q from the tableau. */
 export function stabilityOf({ a, b }) {
   return { P: determinant(a.map((row) => row.map((x, j) => x - b[j]))), Q: determinant(a) };
+}
+
+// ---- a polynomial that one bends
+
+export const isPolynomial = ({ Q }) => Q.length === 1;
+
+/**
+ * What the weights are multiplied with, A^(j-1) 1 for j = 1, 2, ..: if R is a polynomial, b times the
+ * j-th is its coefficient of z^j. They end at 0, and are as many as R may have powers.
+ */
+function weighed(a) {
+  const vectors = [];
+  let next = a.map(() => 1);
+  while (vectors.length < a.length && next.some((x) => Math.abs(x) > NEAR)) {
+    vectors.push(next);
+    next = a.map((row) => inner(row, vectors.at(-1)));
+  }
+  return vectors;
+}
+const inner = (x, y) => x.reduce((sum, value, i) => sum + value * y[i], 0);
+
+/** The coefficients of R, a polynomial, lowest power first: those that weights can change, and 1. */
+export const coefficientsOf = ({ a, b }) => [1, ...weighed(a).map((vector) => inner(vector, b))];
+
+/** Whether no other weights give the same polynomial with the same a. */
+export const isAlone = ({ a }) => weighed(a).length === a.length;
+
+/** The weights, as near as possible to b, with which R has this coefficient of z^j and keeps its others. */
+export function bend({ a, b }, j, value) {
+  const vectors = weighed(a),
+    change = vectors.map((vector, i) => (i === j - 1 ? value - inner(vector, b) : 0));
+  if (vectors.length === a.length) return add(b, solve(vectors, change));
+  const shares = solve(
+    vectors.map((x) => vectors.map((y) => inner(x, y))),
+    change,
+  );
+  return add(
+    b,
+    b.map((_, i) => shares.reduce((sum, share, n) => sum + share * vectors[n][i], 0)),
+  );
+}
+const add = (x, y) => x.map((value, i) => value + y[i]);
+
+/**
+ * The coefficient of z^j, nearest to what it is, with which |R(z)| is 1, and so the border goes through z;
+ * if none does it, that with which |R(z)| is least.
+ */
+export function coefficientAt(coefficients, j, z) {
+  const others = coefficients.map((x, i) => (i === j ? 0 : x)),
+    [p, q] = evaluate(others, z),
+    [u, w] = evaluate([...Array(j).fill(0), 1], z),
+    size = u * u + w * w;
+  const middle = -(p * u + q * w) / size,
+    reach = middle * middle - (p * p + q * q - 1) / size;
+  if (!(reach > 0)) return middle;
+  const off = Math.sqrt(reach);
+  return coefficients[j] < middle ? middle - off : middle + off;
+}
+
+/** Up to which power of z a polynomial is the exponential's series. */
+export function agreement(coefficients) {
+  let taylor = 1;
+  const differs = coefficients.findIndex((x, j) => {
+    taylor /= Math.max(j, 1);
+    return Math.abs(x - taylor) >= NEAR;
+  });
+  return (differs < 0 ? coefficients.length : differs) - 1;
 }
 
 /** R at a complex z; [NaN, NaN] or infinities at a pole. */

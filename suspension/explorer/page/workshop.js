@@ -3,18 +3,30 @@
 
 import { button, make, write } from "./dom.js";
 import { begin, clamp, enlargement, plain, ratioOf, show } from "./pen.js";
-import { CONDITIONS, readEntry, rowSums, writeEntry } from "./tableau.js";
+import {
+  bend,
+  CONDITIONS,
+  coefficientAt,
+  coefficientsOf,
+  isPolynomial,
+  readEntry,
+  rowSums,
+  writeEntry,
+} from "./tableau.js";
 import { coloursOf, onTheme } from "./theme.js";
-import { tameSliders } from "./touch.js";
+import { isPull, tameSliders } from "./touch.js";
 import { drawAxis, drawForces, drawRegion, drawWork, IN, slackAt } from "./workshop_draw.js";
 import { makeBench } from "./workshop_run.js";
 import {
+  bentWords,
   examine,
   headline,
   limitWords,
+  moved,
   ms,
   orderWords,
   polynomial,
+  power,
   puzzles,
   raceWords,
   stabilityWords,
@@ -25,8 +37,17 @@ import {
 
 const MOST_STAGES = 6,
   STOPS = 1000, // of a slider
+  FINE = 100, // stops of a coefficient's slider for each of the exponential's
+  NEAR = { mouse: 10, touch: 24 }, // pixels from the border at which one takes hold of it
+  HANDLES = [
+    [-1, 0],
+    [-0.5, Math.sqrt(0.75)],
+    [-0.5, -Math.sqrt(0.75)],
+  ],
   BACK = 200; // tables that Undo knows
 const SVG = "http://www.w3.org/2000/svg";
+
+const factorial = (j) => (j > 1 ? j * factorial(j - 1) : 1);
 
 let count = 0; // of workshops, for names that elements refer to each other by
 
@@ -120,7 +141,9 @@ export function renderWorkshop(model, el) {
 
   const past = [];
   let touched = ""; // what was changed last: one step back undoes all of it
+  let origin = null; // the table whose R one bends
   function set(tableau, by) {
+    if (!by.startsWith("R")) origin = null;
     if (by !== touched || by === "") past.push(current());
     if (past.length > BACK) past.shift();
     touched = by;
@@ -217,6 +240,92 @@ export function renderWorkshop(model, el) {
     set({ a, b, c: follows ? sumsAsText() : c, follows: !follows }, "");
   });
 
+  // ---- R that one bends: another coefficient by other weights
+
+  const bow = make(sheet, "section", "se-bend", { "aria-labelledby": `${id}-bend` });
+  make(bow, "p", "se-title", { id: `${id}-bend` }, "Bend R(z)");
+  const bows = make(bow, "div", "se-bows"),
+    bent = make(bow, "p", "se-words"),
+    back = button(make(bow, "div", "se-tools"), "Back");
+  const levers = []; // one for each coefficient that weights can change
+  let pulled = 3; // the one that the border changes
+
+  function addLever() {
+    const j = levers.length + 1,
+      box = make(bows, "div", "se-knob");
+    make(box, "label", "", { for: `${id}-R${j}` }, `at ${power(j)}`);
+    const output = make(box, "output", "", { for: `${id}-R${j}` }),
+      range = make(box, "input", "", {
+        ...{ type: "range", id: `${id}-R${j}`, min: -FINE, max: 3 * FINE, step: 1 },
+      });
+    const pick = () => {
+      if (pulled === j) return;
+      pulled = j;
+      update();
+    };
+    range.addEventListener("focus", pick);
+    range.addEventListener("input", () => {
+      pulled = j;
+      bendTo(j, Number(range.value) / FINE / factorial(j));
+    });
+    range.addEventListener("change", () => (touched = ""));
+    levers.push({ box, range, output });
+  }
+
+  function bendTo(j, value) {
+    const { a, b, c, follows } = current(),
+      { wrong, ...numbers } = valuesOf({ a, b, c, follows });
+    if (wrong.size) return;
+    const base = baseOf(numbers) ?? { tableau: { a, b, c, follows }, name: nameOf(numbers) };
+    const weights = bend(numbers, j, value).map((x) => writeEntry(Number(x.toPrecision(15)), 1e-13));
+    set({ a, b: weights, c, follows }, `R${j}`);
+    origin = base;
+    update();
+  }
+
+  /** The table with the same a and c whose R was bent, or null: the one begun with, or one that is known. */
+  function baseOf(numbers) {
+    const isSame = (one, other) =>
+      one.length === other.length && one.every((x, i) => Math.abs(x - other[i]) < 1e-12);
+    const isBase = (values) =>
+      !values.wrong.size &&
+      isSame(values.a.flat(), numbers.a.flat()) &&
+      isSame(values.c, numbers.c) &&
+      !isSame(values.b, numbers.b);
+    if (origin) return isBase(valuesOf(origin.tableau)) ? origin : null;
+    if (known.some(({ values }) => isSame(values.a.flat(), numbers.a.flat()) && isSame(values.b, numbers.b)))
+      return null;
+    const found = known.find(({ values }) => isBase(values));
+    return found ? { tableau: typed(found), name: found.name } : null;
+  }
+  back.addEventListener("click", () => {
+    const base = baseOf(good.numbers);
+    if (base) set(base.tableau, "");
+  });
+
+  function tellBend() {
+    const isBent = isPolynomial(good.R),
+      coefficients = isBent ? coefficientsOf(good.numbers) : [],
+      base = isBent ? baseOf(good.numbers) : null;
+    while (levers.length < coefficients.length - 1) addLever();
+    if (isBent) pulled = clamp(pulled, 1, coefficients.length - 1);
+    levers.forEach(({ box, range, output }, i) => {
+      const j = i + 1,
+        value = coefficients[j];
+      box.hidden = value === undefined;
+      if (box.hidden) return;
+      const words = moved(value);
+      write(output, words);
+      box.classList.toggle("se-pulled", j === pulled);
+      range.value = Math.round(FINE * factorial(j) * value);
+      range.setAttribute("aria-valuetext", `${words}, the exponential has ${moved(1 / factorial(j))}`);
+    });
+    const facts = base && { ...examine(valuesOf(base.tableau), robot.modes), name: base.name };
+    write(bent, bentWords(good, facts, pulled));
+    back.disabled = !base;
+    write(back, base ? `Back to ${base.name === "Your method" ? "where it was" : base.name}` : "Back");
+  }
+
   // ---- what follows from it
 
   const list = make(sheet, "dl", "se-facts"),
@@ -230,6 +339,7 @@ export function renderWorkshop(model, el) {
     make(list, "dt", "", {}, name);
     rows[key] = make(list, "dd");
   }
+  sheet.append(bow); // below what it changes
 
   const trees = make(root, "details", "se-trees", { open: "" });
   make(trees, "summary", "", {}, "Order conditions: a rooted tree each");
@@ -349,10 +459,14 @@ export function renderWorkshop(model, el) {
     if (keptNow !== otherKey) {
       otherKey = keptNow;
       const values = keptNow ? valuesOf(kept) : null;
-      other = values && !values.wrong.size ? { name: kept.name, ...examine(values, robot.modes) } : null;
+      other =
+        values && !values.wrong.size
+          ? { name: kept.name ?? nameOf(values), ...examine(values, robot.modes) }
+          : null;
     }
     fill(tableau, wrong);
     tell(isBad);
+    tellBend();
     measure();
     cost += performance.now() - begun;
     scheduled ||= requestAnimationFrame(paint);
@@ -477,7 +591,9 @@ export function renderWorkshop(model, el) {
     scheduled = 0;
     colours ??= coloursOf(root);
     const draw = {
-      region: (p) => drawRegion(p, good.R, other?.R, points()),
+      region: (p) => {
+        sight = drawRegion(p, good.R, other?.R, points(), isPolynomial(good.R) ? HANDLES : []);
+      },
       axis: (p) => drawAxis(p, good.R, other?.R, fastestTurn()),
       forces: (p) => drawForces(p, tried, rival, facts),
       work: (p) => drawWork(p, curves, tried),
@@ -490,6 +606,64 @@ export function renderWorkshop(model, el) {
     );
     cost = 0;
   }
+
+  // ---- the border, pulled by mouse or finger; the sliders do it by keys
+
+  const { canvas: sky } = pictures.region;
+  let sight = null, // the frame of the region and points of its border, as drawn
+    grip = null, // what is held: how far beside the border, and R as it was
+    finger = null; // where one came down near the border
+  const spot = ({ clientX, clientY }) => {
+    const { left, top } = sky.getBoundingClientRect();
+    return [(clientX - left) / zoom, (clientY - top) / zoom];
+  };
+  /** The nearest point of the border, if it is near. */
+  function borderAt(event) {
+    if (!sight || !isPolynomial(good.R) || valuesOf(current()).wrong.size) return null;
+    const [x, y] = spot(event),
+      away = ([u, w]) => Math.hypot(u - x, w - y);
+    const found = sight.border.reduce((best, one) => (!best || away(one) < away(best) ? one : best), null);
+    return found && away(found) <= NEAR[event.pointerType === "touch" ? "touch" : "mouse"] ? found : null;
+  }
+  function take(point, event) {
+    const [x, y] = spot(event);
+    grip = { off: [point[0] - x, point[1] - y], frame: sight.frame };
+    touched = "";
+    sky.setPointerCapture(event.pointerId);
+    pull(event);
+  }
+  function pull(event) {
+    const [x, y] = spot(event),
+      { off, frame } = grip,
+      z = [frame.zx(x + off[0]), frame.zy(y + off[1])];
+    if (Math.hypot(...z) < 0.2) return; // |R(0)| is 1 whatever one does
+    const scale = factorial(pulled),
+      found = scale * coefficientAt(coefficientsOf(good.numbers), pulled, z),
+      value = Math.abs(found - 1) < 0.012 ? 1 : Math.round(1e3 * clamp(found, -1, 3)) / 1e3;
+    bendTo(pulled, value / scale);
+  }
+  function letGo() {
+    grip = null;
+    finger = null;
+    touched = "";
+    sky.style.cursor = "";
+  }
+  sky.addEventListener("pointerdown", (event) => {
+    if (!event.isPrimary) return letGo(); // two fingers enlarge the page
+    const point = event.button ? null : borderAt(event);
+    if (!point) return;
+    if (event.pointerType === "touch") finger = { point, x: event.clientX, y: event.clientY };
+    else take(point, event);
+  });
+  sky.addEventListener("pointermove", (event) => {
+    if (!event.isPrimary) return;
+    if (finger && isPull(event.clientX - finger.x, event.clientY - finger.y)) {
+      take(finger.point, event);
+      finger = null;
+    } else if (grip) pull(event);
+    if (!grip && event.pointerType === "mouse") sky.style.cursor = borderAt(event) ? "grab" : "";
+  });
+  for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) sky.addEventListener(name, letGo);
 
   const sizes = new ResizeObserver((entries) => {
     zoom = enlargement();

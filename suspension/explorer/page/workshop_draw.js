@@ -1,8 +1,9 @@
 // The pictures of the workshop: the region with the modes, the imaginary axis, forces, error and work.
 
 import { clamp, show, ticks, trace } from "./pen.js";
-import { growthAt } from "./tableau.js";
+import { growthAt, reach } from "./tableau.js";
 
+const GRIP = 5; // half a handle of the border, pixels
 const CELLS = 80; // of the region's picture, across
 export const IN = 1e-12; // roundoff of |R| = 1 counts as stable
 const TALL = 4.5; // of the region's window, from its middle, at least
@@ -34,7 +35,7 @@ function sizeAt(p, re, im) {
   return x * x + y * y;
 }
 
-/** The region in a frame, as a path to fill, and its border, by cells and straight lines in them. */
+/** The region in a frame, as a path to fill, and its border, by cells and straight lines in them; points of it. */
 function regionPath({ P, Q }, { left, right, top, bottom, zx, zy }) {
   const nx = CELLS,
     ny = Math.max(8, Math.round((CELLS * (bottom - top)) / (right - left)));
@@ -42,7 +43,8 @@ function regionPath({ P, Q }, { left, right, top, bottom, zx, zy }) {
     ys = Array.from({ length: ny + 1 }, (_, j) => top + ((bottom - top) * j) / ny);
   const values = ys.map((y) => Float64Array.from(xs, (x) => slackAt(P, Q, zx(x), zy(y))));
   const area = new Path2D(),
-    border = new Path2D();
+    border = new Path2D(),
+    points = [];
   for (let j = 0; j < ny; j++) {
     let from = -1; // where a row of whole cells began
     const close = (i) => {
@@ -81,15 +83,19 @@ function regionPath({ P, Q }, { left, right, top, bottom, zx, zy }) {
       for (let k = 0; k + 1 < crossings.length; k += 2) {
         border.moveTo(...crossings[k]);
         border.lineTo(...crossings[k + 1]);
+        points.push(crossings[k]);
       }
     }
     close(nx);
   }
-  return { area, border };
+  return { area, border, points };
 }
 
-/** The region, dashed the border of the one to compare with, and the modes at the present step. */
-export function drawRegion(p, R, other, points) {
+/**
+ * The region, dashed the border of the one to compare with, the modes at the present step, and handles
+ * in some directions, where one takes hold of the border. Gives the frame and points of the border.
+ */
+export function drawRegion(p, R, other, points, directions = []) {
   const { w, h } = p,
     half = windowOf(points),
     [left, right, top, bottom] = [4, w - 4, 22, h - 20];
@@ -121,6 +127,16 @@ export function drawRegion(p, R, other, points) {
       [x, y] = [clamp(px(z[0]), left, right), clamp(py(z[1]), top, bottom)];
     p.dot(x, y, 5, grows ? "alarm" : "paper", grows ? "alarm" : "ink", 2);
   }
+  for (const direction of directions) {
+    const far = reach(R, direction),
+      [x, y] = [px(far * direction[0]), py(far * direction[1])];
+    if (!(far > 0 && x > left && x < right && y > top && y < bottom)) continue;
+    const grip = new Path2D();
+    grip.rect(x - GRIP, y - GRIP, 2 * GRIP, 2 * GRIP);
+    p.fill("paper", 1, grip);
+    p.stroke("region", 2.5, [], grip);
+  }
+  return { frame, border: seen.points };
 }
 
 /** |R(iy)| and its phase over y, unwrapped, on [0, PHASES]: pairs of lists. */

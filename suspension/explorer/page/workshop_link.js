@@ -4,12 +4,20 @@ export const PREFIX = "#workshop:";
 const MOST = 6; // stages
 const LETTERS = 40; // of an entry
 
-/** "#workshop:a=0_1/2&b=1/2_1/2&c=…&v=1.2&dt=0.02": entries by "_", rows by ";". */
+/**
+ * "#workshop:a=0_1/2&b=1/2_1/2&c=…&v=1.2&dt=0.02": entries by "_", rows by ";"; c only if it does not
+ * follow a. The table kept to compare with is told by ka, kb and kc.
+ */
 export function writeLink(model) {
-  const { a, b, c, follows } = model.get("tableau"),
+  const parts = new URLSearchParams(),
     row = (entries) => entries.join("_");
-  const parts = new URLSearchParams({ a: a.map(row).join(";"), b: row(b) });
-  if (!follows) parts.set("c", row(c));
+  const tell = ({ a, b, c, follows }, kept = "") => {
+    parts.set(`${kept}a`, a.map(row).join(";"));
+    parts.set(`${kept}b`, row(b));
+    if (!follows) parts.set(`${kept}c`, row(c));
+  };
+  tell(model.get("tableau"));
+  if (model.get("kept")?.b) tell(model.get("kept"), "k");
   for (const name of ["v", "dt"]) parts.set(name, String(Number(model.get(name).toPrecision(6))));
   return PREFIX + parts.toString();
 }
@@ -18,16 +26,25 @@ export function writeLink(model) {
 export function readLink(hash) {
   if (!hash.startsWith(PREFIX)) return null;
   const parts = new URLSearchParams(hash.slice(PREFIX.length)),
-    row = (text) => text.split("_").map((entry) => entry.slice(0, LETTERS));
-  const b = row(parts.get("b") ?? ""),
-    a = (parts.get("a") ?? "").split(";").map(row),
-    c = parts.has("c") ? row(parts.get("c")) : b.map(() => "");
-  const s = b.length;
-  if (s > MOST || a.length !== s || c.length !== s || a.some((row) => row.length !== s)) return null;
-  const found = { tableau: { a, b, c, follows: !parts.has("c") } };
+    tableau = readTable(parts);
+  if (!tableau) return null;
+  const found = { tableau, kept: readTable(parts, "k") ?? {} };
   for (const name of ["v", "dt"]) {
     const value = Number.parseFloat(parts.get(name));
     if (Number.isFinite(value)) found[name] = value;
   }
   return found;
+}
+
+/** A table of texts out of an address, or null if its rows do not fit. */
+function readTable(parts, kept = "") {
+  const row = (text) => text.split("_").map((entry) => entry.slice(0, LETTERS)),
+    told = (name) => parts.get(kept + name);
+  const b = row(told("b") ?? ""),
+    a = (told("a") ?? "").split(";").map(row),
+    follows = told("c") === null,
+    c = follows ? b.map(() => "") : row(told("c"));
+  const s = b.length;
+  if (s > MOST || a.length !== s || c.length !== s || a.some((row) => row.length !== s)) return null;
+  return { a, b, c, follows };
 }

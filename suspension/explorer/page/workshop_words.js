@@ -2,9 +2,13 @@
 
 import { show } from "./pen.js";
 import {
+  agreement,
   CONDITIONS,
+  coefficientsOf,
   growthAt,
   HIGHEST,
+  isAlone,
+  isPolynomial,
   kindOf,
   longestStep,
   orderOf,
@@ -33,15 +37,28 @@ export function examine(numbers, modes) {
 
 const RAISED = "⁰¹²³⁴⁵⁶";
 
+/** A power of z. */
+export const power = (j) => (j ? (j > 1 ? `z${RAISED[j]}` : "z") : "");
+
+/** A coefficient: a fraction of small numbers, or a few digits. */
+export function coefficient(x) {
+  const exact = writeEntry(x);
+  return exact.length > 8 ? show(x, 4) : exact;
+}
+
+/** One that somebody has moved: beside 1/6 one reads 0.187 faster than 14/75. */
+export function moved(x) {
+  const exact = writeEntry(x);
+  return /^-?(\d+|\d\/\d+)$/.test(exact) ? exact.replace("-", "−") : show(x, 3);
+}
+
 /** A polynomial in z, "1 + z + 1/2 z²". */
 export function polynomial(coefficients) {
   const terms = [];
   coefficients.forEach((x, j) => {
     if (x === 0) return;
-    const exact = writeEntry(Math.abs(x)),
-      size = exact.length > 8 ? show(Math.abs(x), 4) : exact,
-      power = j ? (j > 1 ? `z${RAISED[j]}` : "z") : "";
-    const term = power && size === "1" ? power : [size, power].filter(Boolean).join(" ");
+    const size = coefficient(Math.abs(x)),
+      term = j && size === "1" ? power(j) : [size, power(j)].filter(Boolean).join(" ");
     terms.push(terms.length ? (x < 0 ? ` − ${term}` : ` + ${term}`) : x < 0 ? `−${term}` : term);
   });
   return terms.join("") || "0";
@@ -160,6 +177,47 @@ export function puzzles(facts, traded) {
     ["Explicit, three stages, order 2, a longer step than order 3 allows", second()],
     ["Explicit and A-stable", third()],
   ].map(([task, [isWon, words]]) => ({ task, isWon, words }));
+}
+
+/**
+ * What became of R: beside `base`, the method with the same a whose R it was; null if it is that method.
+ * `pulls` names the coefficient that the border changes.
+ */
+export function bentWords(facts, base, pulls) {
+  if (!isPolynomial(facts.R))
+    return "R is a fraction here: as a power series it never ends, and no table moves one of its numbers alone. Start from an explicit method to bend its R.";
+  const now = coefficientsOf(facts.numbers);
+  if (!base)
+    return `Move a number, or pull the border in the picture, which changes the one at ${power(pulls)}: the weights b follow, a stays.`;
+  const before = coefficientsOf(base.numbers),
+    changed = now.flatMap((x, j) => (Math.abs(x - before[j]) > 1e-9 ? [j] : []));
+  if (!changed.length) return `The R(z) of ${base.name}, by other weights.`;
+  const parts = changed.map((j) => `${moved(now[j])} at ${power(j)} in place of ${moved(before[j])}`),
+    said = `The R(z) of ${base.name} with ${parts.join(", ")}. `;
+  const p = agreement(now),
+    series = p ? `It is the series of the exponential up to ${power(p)}` : "It is no longer near 1 + z",
+    number = ({ order }) => (order === HIGHEST ? `${HIGHEST} or more` : order);
+  const fall =
+    facts.order === base.order
+      ? `the order stays ${number(facts)}`
+      : `the order ${facts.order < base.order ? "falls" : "rises"} from ${number(base)} to ${number(facts)}`;
+  const trees =
+    facts.order < Math.min(p, HIGHEST)
+      ? `. For a swing alone it would be ${p}: other trees do not fit these weights`
+      : "";
+  return `${said}${series}; ${fall}${trees}. ${limitChange(facts.limit, base.limit)} ${
+    isAlone(facts.numbers)
+      ? "With this a no other weights b have it; other tables do."
+      : "Other weights b have it too; these are the nearest."
+  }`;
+}
+
+function limitChange(now, before) {
+  if (before === 0 && now === 0) return "No step is stable, as before.";
+  if (now === 0) return `No step is stable any more; it was ${ms(before)}.`;
+  if (before === 0) return `Steps up to ${ms(now)} are stable, where none was.`;
+  if (Math.abs(now - before) <= 5e-4 * before) return `The longest stable step stays ${ms(now)}.`;
+  return `The longest stable step ${now < before ? "shrinks" : "grows"} from ${ms(before)} to ${ms(now)}.`;
 }
 
 /** What cannot be read, in words. */
