@@ -5,7 +5,6 @@ to beat comes from there. The first road is the bump, the others are unknown: bu
 it, drawn by lot until robot and road ask for something that can be done.
 """
 
-import base64
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,7 +20,7 @@ from suspension.explorer.family import Family
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.settings import REFERENCE
 from suspension.explorer.still import svg
-from suspension.explorer.tables import shape_of
+from suspension.explorer.tables import unit_bump
 from suspension.figures import plot_all_forces
 from suspension.flight import fly
 from suspension.least_force import CLEAR, distance_over, margin
@@ -240,8 +239,6 @@ class Game(Instrument):
             name: [float(min(ends[0], own)), float(max(ends[-1], own))]
             for name, ends, own in (("k", k, robot.k1), ("c", c, robot.c1))
         }
-        frame, table = shape_of(bump, 0, 0)
-        packed = base64.b64encode(table.astype("<f8").tobytes())
         super().__init__(
             facts={
                 "own": {"k": robot.k1, "c": robot.c1},
@@ -251,7 +248,7 @@ class Game(Instrument):
                 "model": Family(robot, bump).model(),
                 "wheels": robot.arms.tolist(),
                 "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
-                "shape": frame | {"table": packed.decode()},
+                "shape": unit_bump(bump),
                 "levels": [self._told(*level) for level in self.levels],
             },
             k=robot.k1,

@@ -7,7 +7,7 @@ import numpy as np
 
 from suspension.road import GaussianBump, profile
 
-__all__ = ["region", "road_table", "scheme_facts", "shape_of"]
+__all__ = ["region", "road_table", "scheme_facts", "shape_of", "unit_bump"]
 
 NODES = -np.cos(np.pi * np.arange(5) / 4)  # where a cell, -1 to 1, meets the road
 POWERS = np.arange(2 * len(NODES))
@@ -41,6 +41,15 @@ def shape_of(road, start, stop):
         table = road_table(road, start, stop)
     frame = {"centre": centre, "start": start, "cell": (stop - start) / len(table)}
     return frame, table
+
+
+def unit_bump(bump):
+    """The frame of a bump, as `shape_of` has it, with the number of its cells.
+
+    The page computes the table itself: it is the same for all bumps.
+    """
+    frame, table = shape_of(bump, 0, 0)
+    return frame | {"cells": len(table)}
 
 
 def road_table(road, start, stop, cells=1024, max_cells=4096):

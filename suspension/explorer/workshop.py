@@ -1,6 +1,5 @@
 """The workshop of schemes: a Butcher tableau to type into, and all that follows from it."""
 
-import base64
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -13,7 +12,7 @@ from suspension.explorer.bundle import bundle, without_comments
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.settings import REFERENCE
 from suspension.explorer.still import svg
-from suspension.explorer.tables import shape_of
+from suspension.explorer.tables import unit_bump
 from suspension.figures import plot_stability
 from suspension.least_force import distance_over
 from suspension.road import GaussianBump
@@ -88,7 +87,6 @@ class Workshop(Instrument):
         ]
         start = next(scheme for scheme in schemes if scheme["name"] == RK4.name)
         distance = distance_over(robot, bump)
-        frame, table = shape_of(bump, 0, 0)
         super().__init__(
             facts={
                 "schemes": schemes,
@@ -105,7 +103,7 @@ class Workshop(Instrument):
                 "wheels": robot.arms.tolist(),
                 "distance": distance,
                 "bump": {"height": bump.height, "sigma": bump.sigma},
-                "road": frame | {"table": base64.b64encode(table.astype("<f8").tobytes()).decode()},
+                "road": unit_bump(bump),
                 "reference": {name: getattr(REFERENCE, name).tolist() for name in "abc"},
                 "traded": longest_of_order_two(robot.eigenvalues),
             },

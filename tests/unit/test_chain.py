@@ -258,3 +258,27 @@ def test_the_readings_as_they_stand_are_there_in_python():
 def test_readings_without_scatter_or_spring_are_refused(pairs):
     with pytest.raises(ValueError, match=r"^data must have four readings or more and a slope"):
         Chain(table(pairs), ROBOT, BUMP, asked=SPEEDS)
+
+
+def test_a_link_brings_back_the_readings(tmp_path):
+    facts = chain().facts
+    start = facts["start"]
+    moved = [[x, round(force + 0.1234, 4)] for x, force in start[1:]]
+    script = """import { readLink, writeLink } from "./page/chain_link.js";
+    import { readFileSync } from "node:fs";
+    const { facts, sets, hashes } = JSON.parse(readFileSync("given.json"));
+    console.log(JSON.stringify({
+      links: sets.map((readings) => writeLink(readings, facts)),
+      back: sets.map((readings) => readLink(writeLink(readings, facts), facts)),
+      read: hashes.map((hash) => readLink(hash, facts)),
+    }));"""
+    many = ";".join(f"{n / 100}_1" for n in range(99))
+    spoiled = ["#workshop:r=1_2", "#chain:x", "#chain:r=0_1;1_2;0.5_1", "#chain:r=0_1;0_2;1_1;1_3"]
+    spoiled += ["#chain:r=0_1;0.5_;1_2;0.2_1", "#chain:r=0_1;1;0.5_1;0.2_1", f"#chain:r={many}"]
+    spoiled += ["#chain:r=0_1;0.5_1e999;1_2;0.2_1", "#chain:r=-_1;0.5_1;1_2;0.2_1"]
+    given = {"facts": facts, "sets": [start, moved, start[:4]], "hashes": spoiled}
+    (tmp_path / "given.json").write_text(json.dumps(given), encoding="utf-8")
+    found = json.loads(run_in_node(tmp_path, script))
+    assert found["back"] == [start, moved, start[:4]]
+    assert found["links"][0] == "#chain:" and found["links"][1].startswith("#chain:r=")
+    assert found["read"] == [None] * len(spoiled)

@@ -1,6 +1,8 @@
 """The workshop of schemes: what its page computes from a table is what the package computes."""
 
 import json
+from fractions import Fraction
+from math import factorial
 
 import numpy as np
 import pytest
@@ -11,7 +13,8 @@ from scipy.integrate import solve_ivp
 from suspension import RK4, GaussianBump, Robot, Scheme, course, over_bump, simulate
 from suspension.contact import normal_forces
 from suspension.explorer import Workshop
-from suspension.explorer.workshop import longest_of_order_two
+from suspension.explorer.tables import shape_of
+from suspension.explorer.workshop import KNOWN, longest_of_order_two
 
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
 
@@ -367,3 +370,166 @@ def test_the_course_s_robot_can_be_tried_too():
 def test_what_cannot_be_is_refused_by_name(arguments, words):
     with pytest.raises((TypeError, ValueError), match=words):
         Workshop(*arguments)
+
+
+def test_the_page_computes_the_table_of_a_bump_that_python_has(workshop, tmp_path):
+    script = """import { bumpTable } from "./page/bump_table.js";
+    console.log(JSON.stringify([...bumpTable(%s)]));"""
+    page = json.loads(run_in_node(tmp_path, script % json.dumps(workshop.facts["road"])))
+    _, table = shape_of(BUMP, 0, 0)
+    np.testing.assert_allclose(np.reshape(page, table.shape), table, atol=1e-13)
+
+
+# Reads given.json: tables as numbers, and for each a coefficient to bend and points of the plane.
+BEND = """
+import { readFileSync } from "node:fs";
+import * as t from "./page/tableau.js";
+import { bentWords, examine } from "./page/workshop_words.js";
+
+const { tables, modes, z } = JSON.parse(readFileSync("given.json"));
+for (const { a, b, bends, name } of tables) {
+  const c = t.rowSums(a), base = { name, ...examine({ a, b, c }, modes) };
+  const before = t.coefficientsOf({ a, b });
+  const bent = bends.map(([j, value]) => {
+    const weights = t.bend({ a, b }, j, value), now = examine({ a, b: weights, c }, modes);
+    const coefficients = t.coefficientsOf({ a, b: weights });
+    return { j, value, b: weights, coefficients, order: now.order, limit: String(now.limit),
+      values: z.map((point) => t.growthAt(now.R, point)), agrees: t.agreement(coefficients),
+      words: bentWords(now, base, j) };
+  });
+  const pulls = z.map((point, n) => {
+    const j = 1 + (n % (before.length - 1)), value = t.coefficientAt(before, j, point);
+    return { j, value, b: t.bend({ a, b }, j, value) };
+  });
+  console.log(JSON.stringify({ before, bent, pulls, isAlone: t.isAlone({ a }), order: base.order,
+    limit: base.limit, words: bentWords(base, null, 1), R: t.isPolynomial(base.R) }));
+}
+"""
+
+
+def bend(folder, tables, modes, z):
+    """What the page makes of tables (name, a, b, bends), bends being pairs (j, coefficient)."""
+    given = {
+        "tables": [
+            {"name": name, "a": np.asarray(a).tolist(), "b": np.asarray(b).tolist(), "bends": bends}
+            for name, a, b, bends in tables
+        ],
+        "modes": [[w.real, w.imag] for w in modes],
+        "z": [[w.real, w.imag] for w in z],
+    }
+    (folder / "given.json").write_text(json.dumps(given), encoding="utf-8")
+    return [json.loads(line) for line in run_in_node(folder, BEND).splitlines()]
+
+
+def explicit_tables(rng):
+    """The known explicit methods, and any others whose last stage feels the first."""
+    for name, (a, b) in list(KNOWN.items())[:7]:
+        numbers = [[Fraction(x) for x in row.split()] for row in a.split(";")]
+        yield name, np.array(numbers, float), np.array([Fraction(x) for x in b.split()], float)
+    for s in (1, 2, 3, 4, 5, 6) * 3:
+        a = np.tril(rng.uniform(0.2, 1, (s, s)), -1)
+        b = rng.uniform(0.1, 1, s)
+        yield f"any of {s}", a, b / b.sum()
+
+
+def polynomial_of(a, b):
+    """1 and b A^(j-1) 1: R of an explicit method."""
+    power, found = np.ones(len(b)), [1.0]
+    for _ in b:
+        found.append(b @ power)
+        power = a @ power
+    return np.array(found)
+
+
+def test_a_bent_polynomial_is_that_of_the_scheme_with_the_weights_that_follow(tmp_path):
+    rng = np.random.default_rng(41)
+    z = rng.normal(0, 2, 30) + 1j * rng.normal(0, 2, 30)
+    tables = [
+        (name, a, b, [(j, rng.uniform(0, 2) / factorial(j)) for j in range(1, len(b) + 1)])
+        for name, a, b in explicit_tables(rng)
+    ]
+    limits = []
+    for (_, a, b, _), answer in zip(tables, bend(tmp_path, tables, ROBOT.eigenvalues, z)):
+        assert answer["isAlone"] and answer["R"]
+        near(answer["before"], polynomial_of(a, b), PARITY)
+        for bent in answer["bent"]:
+            expected = polynomial_of(a, b)
+            expected[bent["j"]] = bent["value"]
+            near(bent["coefficients"], expected, PARITY)
+            R = np.polynomial.Polynomial(expected)
+            values = [re + 1j * im for re, im in bent["values"]]
+            np.testing.assert_allclose(values, R(z), rtol=PARITY, atol=PARITY)
+            assert bent["agrees"] <= bent["j"] - 1
+            if bent["j"] == 1:  # the weights do not sum to 1: no scheme of the package
+                assert bent["order"] == 0
+                continue
+            scheme = Scheme("", 1, a, np.array(bent["b"]), a.sum(axis=1))
+            np.testing.assert_allclose(scheme.stability_function(z), R(z), rtol=PARITY, atol=PARITY)
+            limits.append(scheme.max_stable_dt(ROBOT.eigenvalues))
+            assert float(bent["limit"]) == pytest.approx(limits[-1], rel=PARITY)
+    assert sum(limit > 0 for limit in limits) > 10
+
+
+def test_a_pulled_border_goes_through_the_place_or_as_near_as_it_can(tmp_path):
+    rng = np.random.default_rng(43)
+    z = rng.normal(-1, 1.5, 60) + 1j * rng.normal(0, 2, 60)
+    z = z[abs(z) > 0.4]  # at 0 any R is 1
+    tables = [(name, a, b, []) for name, a, b in explicit_tables(rng)]
+    through = 0
+    for (_, a, b, _), answer in zip(tables, bend(tmp_path, tables, ROBOT.eigenvalues, z)):
+        for point, pull in zip(z, answer["pulls"]):
+            if abs(pull["value"] * factorial(pull["j"])) > 3:
+                continue  # beyond the slider
+            weights = np.array(pull["b"])
+            R = np.polynomial.Polynomial(polynomial_of(a, weights))
+            if pull["j"] > 1:
+                R = Scheme("", 1, a, weights, a.sum(axis=1)).stability_function
+            size = abs(R(point))
+            if abs(size - 1) < PARITY:
+                through += 1
+                continue
+            # No coefficient makes it 1: this one makes it least.
+            assert size > 1
+            for off in (-1e-3, 1e-3):
+                expected = polynomial_of(a, b)
+                expected[pull["j"]] = pull["value"] + off
+                assert abs(np.polynomial.Polynomial(expected)(point)) > size
+    assert through > 300
+
+
+def test_it_is_told_what_became_of_the_polynomial(workshop, tmp_path):
+    heun = ("Heun", [[0, 0], [1, 0]], [1 / 2, 1 / 2], [(1, 0.9), (2, 0.4), (2, 0.5)])
+    rk4 = ("RK4", RK4.a, RK4.b, [(3, 0.2), (4, 0.05), (4, 0), (3, 1 / 6)])
+    # A stage that nothing else uses: the weights are not the only ones.
+    idle = ("idle", [[0, 0, 0], [0.5, 0, 0], [0.5, 0, 0]], [0, 1, 0], [(2, 0.4)])
+    gauss = ("Gauss", *collocation([1 / 2 - np.sqrt(3) / 6, 1 / 2 + np.sqrt(3) / 6]), [])
+    heun, rk4, idle, gauss = bend(tmp_path, [heun, rk4, idle, gauss], ROBOT.eigenvalues, [])
+    words = [bent["words"] for bent in heun["bent"]]
+    assert "9/10 at z in place of 1" in words[0] and "no longer near 1 + z" in words[0]
+    assert "falls from 2 to 0" in words[0]
+    assert "2/5 at z² in place of 1/2" in words[1] and "up to z;" in words[1]
+    assert "falls from 2 to 1" in words[1] and "no other weights" in words[1]
+    assert words[2] == "The R(z) of Heun, by other weights."
+    third, fourth, none, _ = rk4["bent"]
+    assert "1/5 at z³ in place of 1/6" in third["words"] and third["order"] == 2
+    assert "falls from 4 to 2" in third["words"]
+    assert third["agrees"] == 2 and fourth["agrees"] == 3
+    assert "For a swing alone it would be 3" in fourth["words"]
+    assert "stable step" in none["words"] and none["coefficients"][4] == pytest.approx(0, abs=1e-15)
+    assert not idle["isAlone"] and "the nearest" in idle["bent"][0]["words"]
+    assert len(idle["before"]) == 3
+    assert not gauss["R"] and gauss["words"].startswith("R is a fraction here")
+    assert "pull the border" in heun["words"]
+
+
+def test_a_link_brings_back_the_table_and_the_one_kept(tmp_path):
+    script = """import { readLink, writeLink } from "./page/workshop_link.js";
+    const values = %s, model = { get: (name) => values[name] };
+    console.log(JSON.stringify([readLink(writeLink(model)), readLink("#chain:r=1_2"),
+      readLink("#workshop:a=0&b=1&ka=0_1&kb=1")]));"""
+    table = {"a": [["", "0"], ["√2/2", "0"]], "b": ["1/2", "0,5"], "c": ["", ""], "follows": True}
+    kept = {"a": [["1"]], "b": ["1"], "c": ["0.4"], "follows": False}
+    values = {"tableau": table, "kept": kept | {"name": "Your method"}, "v": 2.5, "dt": 0.01}
+    back, other, broken = json.loads(run_in_node(tmp_path, script % json.dumps(values)))
+    assert back == {"tableau": table, "kept": kept, "v": 2.5, "dt": 0.01}
+    assert other is None and broken["kept"] == {} and broken["tableau"]["b"] == ["1"]

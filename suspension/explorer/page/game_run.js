@@ -1,6 +1,7 @@
 // A drive at all asked speeds over a road, exact, and what it says of a suspension: margins, first
 // losses, the part of the way in the air, how far it is from the given one; and the map of them all.
 
+import { bumpTable } from "./bump_table.js";
 import { countSteps, fly, makeMemory, makeRoad, makeRobot, simulate } from "./model.js";
 
 const FINE = { road: 24, swing: 0.1 }, // steps for each sigma, and the longest for the fastest mode
@@ -90,8 +91,7 @@ export const change = ({ own }, k, c) => Math.hypot(Math.log(k / own.k), Math.lo
 /** What is asked for, and what drives over it. */
 export function makeTrack(facts) {
   const { asked, distance, levels, wheels } = facts,
-    bytes = Uint8Array.from(atob(facts.shape.table), (letter) => letter.charCodeAt(0)),
-    shape = { ...facts.shape, table: new Float64Array(bytes.buffer) },
+    shape = { ...facts.shape, table: bumpTable(facts.shape) },
     roads = levels.map(({ bump, centre }) => makeRoad({ ...shape, centre }, bump)),
     spaces = asked.map(() => ({ linear: makeMemory(), flying: makeMemory() })),
     scratch = makeMemory();

@@ -227,11 +227,12 @@ export function coefficientAt(coefficients, j, z) {
   const others = coefficients.map((x, i) => (i === j ? 0 : x)),
     [p, q] = evaluate(others, z),
     [u, w] = evaluate([...Array(j).fill(0), 1], z),
-    size = u * u + w * w;
-  const middle = -(p * u + q * w) / size,
-    reach = middle * middle - (p * p + q * q - 1) / size;
-  if (!(reach > 0)) return middle;
-  const off = Math.sqrt(reach);
+    size = Math.hypot(u, w);
+  const along = (p * u + q * w) / size, // of the other terms, as seen from the one that changes
+    across = Math.abs(q * u - p * w) / size,
+    middle = -along / size;
+  if (across >= 1) return middle;
+  const off = Math.sqrt((1 - across) * (1 + across)) / size;
   return coefficients[j] < middle ? middle - off : middle + off;
 }
 

@@ -1,5 +1,6 @@
 // Runs over the bump by a typed tableau, the exact one beside them, and the error against the work.
 
+import { bumpTable } from "./bump_table.js";
 import { countSteps, makeMemory, makeRoad, simulate } from "./model.js";
 
 const COARSEST = 3, // powers of two: steps of the curve of error against work
@@ -23,8 +24,7 @@ function differ(run, exact, each) {
 /** What of a robot and a bump every tableau is tried on. */
 export function makeBench(facts) {
   const { robot, wheels, distance, bump } = facts,
-    bytes = Uint8Array.from(atob(facts.road.table), (c) => c.charCodeAt(0)),
-    road = makeRoad({ ...facts.road, table: new Float64Array(bytes.buffer) }, bump),
+    road = makeRoad({ ...facts.road, table: bumpTable(facts.road) }, bump),
     fastest = Math.max(...robot.modes.map(([re, im]) => Math.hypot(re, im)), 1e-9);
   const memories = new Map(), // of runs that are looked at at the same time
     known = new Map();
