@@ -5,7 +5,7 @@ prediction's its axes, an instrument's of the laboratory its still picture. Page
 its script and the style sheet; the widgets, which only a kernel's front end could use, and their
 state are left out. The directive ``{explorer} name`` shows an explorer that a notebook has named,
 on another page, and links like ``#explore:v=1.2&dt=0.001`` set the picture of their page, or of the
-page they point to.
+page they point to; links like ``#chain:`` and ``#workshop:a=..`` lead to an instrument.
 """
 
 import json
@@ -33,7 +33,8 @@ from suspension.explorer import (
     workshop_style,
 )
 
-PREFIX = "explore:"
+# What a link begins with that sets a picture, or an instrument of the laboratory.
+PREFIXES = ("explore:", "workshop:", "chain:", "own:", "game:")
 WIDGET = "application/vnd.jupyter.widget-view+json"
 EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
 LABORATORY, WORKSHOP = "suspension-laboratory", "suspension-laboratory se-workshop"
@@ -167,9 +168,9 @@ class ExplorerLinks(SphinxPostTransform):
     def target(self, link):
         """Page, None for this one, and settings of a link; None, None for any other link."""
         target, anchor = link["reftarget"], link.get("reftargetid") or ""
-        if anchor.startswith(PREFIX):
+        if anchor.startswith(PREFIXES):
             return (target if target != self.env.docname else None), anchor
-        if target.startswith(PREFIX):
+        if target.startswith(PREFIXES):
             return None, target
         return None, None
 

@@ -106,6 +106,28 @@ def test_a_reading_is_dragged_and_everything_follows(visit):
     assert told(tab) == before
 
 
+def test_the_address_keeps_the_readings(visit):
+    tab = visit()
+    drag(tab, 3, 60)
+    button(tab, "Preload +").click()
+    button(tab, "Add an outlier").click()
+    tab.keyboard.press("Tab")
+    tab.wait_for_function("location.hash.startsWith('#chain:r=')")
+    tab.wait_for_timeout(500)
+    state, address = told(tab), tab.evaluate("location.hash")
+    other = visit(address)
+    assert told(other) == state
+    assert table(other, "Coefficients") == table(tab, "Coefficients")
+    button(other, "Reset").click()
+    other.wait_for_function("location.hash === ''")
+    assert told(other) == told(visit())
+    button(other, "Undo").click()
+    assert told(other) == state
+    for spoiled in ("#chain:r=x", "#chain:r=0_1;0_2;0_3;0_4", "#chain:r=<b>", "#chain:"):
+        broken = visit(spoiled)
+        assert told(broken) == told(visit())
+
+
 def test_a_finger_moves_a_reading_by_a_clear_pull_and_scrolls_beside_it(visit):
     tab = visit(**PHONE)
     pad(tab).evaluate("pad => scrollBy(0, pad.getBoundingClientRect().top - 200)")

@@ -146,6 +146,129 @@ def test_turning_a_number_lets_the_order_fall_and_the_region_change(visit):
     assert said(tab).startswith("RK4") and pictures(tab)[0] == before[0]
 
 
+def lever(tab, j):
+    return tab.locator(BOX).get_by_label(f"at {('z', 'z²', 'z³', 'z⁴')[j - 1]}", exact=True)
+
+
+def bent(tab):
+    return tab.locator(f"{BOX} .se-bend .se-words").inner_text()
+
+
+def test_a_number_of_the_polynomial_is_moved_and_the_order_falls(visit):
+    tab = visit()
+    before, table = pictures(tab), [entry(tab, f"b{j}").input_value() for j in range(1, 5)]
+    assert "Move a number" in bent(tab) and button(tab, "Back").is_disabled()
+    lever(tab, 3).focus()
+    for _ in range(20):
+        tab.keyboard.press("ArrowRight")
+    assert "1 + z + 1/2 z² + 1/5 z³ + 1/24 z⁴" in fact(tab, "R(z)")
+    assert "order 2" in said(tab) and fact(tab, "Order") == "2"
+    assert "1/5 at z³ in place of 1/6" in bent(tab) and "falls from 4 to 2" in bent(tab)
+    assert lever(tab, 3).get_attribute("aria-valuetext") == "1/5, the exponential has 1/6"
+    assert all(old != new for old, new in zip(before, pictures(tab)))
+    assert "is 0.2" in tab.locator(f"{BOX} .se-trees li", has_text="b·Ac =").inner_text()
+    button(tab, "Undo").click()  # one pull of one number is one step
+    assert said(tab).startswith("RK4") and pictures(tab) == before
+    lever(tab, 4).press("ArrowLeft")
+    lever(tab, 2).press("ArrowLeft")
+    assert bent(tab).startswith("The R(z) of RK4 with 0.495 at z² in place of 1/2, 0.0412 at z⁴")
+    button(tab, "Back to RK4").click()
+    assert [entry(tab, f"b{j}").input_value() for j in range(1, 5)] == table
+    assert pictures(tab) == before
+
+
+def test_a_bent_number_goes_back_to_where_it_was_and_is_kept_by_the_address(visit):
+    tab = visit()
+    type_table(tab, a21="0.4", a32="0.6")
+    was = said(tab), fact(tab, "R(z)")
+    lever(tab, 4).focus()
+    tab.keyboard.press("ArrowRight")
+    tab.wait_for_timeout(600)
+    button(tab, "Keep to compare").click()
+    state = said(tab), fact(tab, "R(z)")
+    tab.wait_for_function("location.hash.includes('kb=')")
+    other = visit(tab.evaluate("location.hash"))
+    assert (said(other), fact(other, "R(z)")) == state
+    assert "like yours" in other.locator(f"{BOX} .se-view-work .se-words").inner_text()
+    button(tab, "Back to where it was").click()
+    assert (said(tab), fact(tab, "R(z)")) == was
+
+
+def test_a_fraction_is_not_bent_and_it_is_said_why(visit):
+    tab = visit()
+    start_from(tab, "SDIRK, order 2")
+    assert bent(tab).startswith("R is a fraction here")
+    assert not tab.locator(f"{BOX} .se-bend input:visible").count()
+    start_from(tab, "Heun")
+    assert tab.locator(f"{BOX} .se-bend input:visible").count() == 2
+    tab.get_by_label("Stages").select_option("3")  # a stage that nothing uses
+    assert tab.locator(f"{BOX} .se-bend input:visible").count() == 2
+
+
+WHERE = """box => {
+  const canvas = document.querySelector(`${box} .se-view-region canvas`);
+  canvas.scrollIntoView({ block: "center" });
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  return { left, top, width, height };
+}"""
+
+
+def place(tab, re, im):
+    """Where a z is in the window, as the picture of the region has it."""
+    at = tab.evaluate(WHERE, BOX)
+    unit = (at["height"] - 42) / 9
+    zero = 4 + 0.66 * (at["width"] - 8)
+    return at["left"] + zero + unit * re, at["top"] + at["height"] / 2 + 1 - unit * im
+
+
+def test_the_border_is_pulled_by_mouse(visit):
+    tab = visit()
+    limit = fact(tab, "Longest")
+    x, y = place(tab, -2.785, 0)  # where RK4 ends
+    tab.mouse.move(x, y)
+    assert tab.locator(f"{BOX} .se-view-region canvas").evaluate("c => c.style.cursor") == "grab"
+    tab.mouse.down()
+    tab.mouse.move(*place(tab, -3.4, 0), steps=6)
+    tab.mouse.up()
+    value = float(lever(tab, 3).input_value())
+    # |1 - 3.4 + 3.4²/2 - c 3.4³ + 3.4⁴/24| = 1 asks for c = 0.2034 or 0.2034 - 2 / 3.4³
+    assert abs(value / 600 - 0.2034) < 0.005 or abs(value / 600 - 0.1525) < 0.005
+    assert "at z³ in place of 1/6" in bent(tab) and "order 2" in said(tab)
+    assert fact(tab, "Longest") != limit
+    button(tab, "Undo").click()
+    assert said(tab).startswith("RK4") and fact(tab, "Longest") == limit
+    tab.mouse.move(*place(tab, -1, 0.5))  # inside there is nothing to take hold of
+    tab.mouse.down()
+    tab.mouse.move(*place(tab, -2, 0.5), steps=3)
+    tab.mouse.up()
+    assert said(tab).startswith("RK4")
+
+
+def test_a_finger_pulls_the_border_sideways_and_scrolls_along_it(visit):
+    tab = visit(**PHONE)
+    x, y = place(tab, -2.785, 0)
+    swipe(tab, x, y, -40, 3)
+    assert "at z³ in place of 1/6" in bent(tab)
+    button(tab, "Undo").click()
+    x, y = place(tab, -2.785, 0)
+    height = tab.evaluate("scrollY")
+    swipe(tab, x, y, 5, -150)
+    assert tab.evaluate("scrollY") > height + 60 and said(tab).startswith("RK4")
+
+
+def test_what_is_further_down_begins_by_itself_and_what_is_asked_for_at_once(visit):
+    tab = visit()
+    tab.wait_for_function(
+        "document.querySelectorAll('.suspension-laboratory.se-live').length === 4"
+    )
+    below = visit("#chain:")
+    chain = below.locator(".suspension-laboratory.se-chain")
+    assert "se-live" in chain.get_attribute("class")
+    below.wait_for_timeout(1000)  # all others have begun, and have not moved it out of sight
+    box = chain.bounding_box()
+    assert box["y"] < 900 and box["y"] + box["height"] > 0
+
+
 def test_two_methods_race_at_equal_work(visit):
     tab = visit()
     words = tab.locator(f"{BOX} .se-view-work .se-words")
@@ -269,8 +392,8 @@ def test_a_finger_turns_a_number(visit):
 def test_a_finger_that_scrolls_turns_nothing(visit):
     tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     sliders = tab.locator(f"{BOX} input[type=range]")
-    assert sliders.count() == 3
-    for nth in range(3):
+    assert sliders.count() == 7
+    for nth in range(7):
         sliders.nth(nth).evaluate("e => e.scrollIntoView({ block: 'center' })")
         tab.wait_for_timeout(200)
         box, value = sliders.nth(nth).bounding_box(), sliders.nth(nth).input_value()

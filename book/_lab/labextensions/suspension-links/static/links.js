@@ -6,6 +6,7 @@
 // shares nothing and holds one module, so it stands here as it is.
 
 const EXPLORE = "explore:";
+const INSTRUMENT = /^(workshop|chain|own|game):/; // the laboratory's: named like the variable that holds it
 const WAIT = 100; // ms between two looks whether a notebook is there
 const TRIES = 100;
 
@@ -21,6 +22,8 @@ const anchorOf = (heading) =>
 /** Whether a cell holds what an anchor names: a heading, a figure, a table, an equation. */
 function holds(cell, anchor) {
   const { sharedModel: shared, type } = cell.model;
+  const instrument = INSTRUMENT.exec(anchor)?.[1];
+  if (instrument) return type === "code" && shared.getSource().includes(`\n${instrument} = `);
   if (shared.getMetadata("mystnb")?.figure?.name === anchor) return true;
   const source = shared.getSource();
   if (type !== "markdown") return source.includes(`"${anchor}"`);
