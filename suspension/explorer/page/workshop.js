@@ -215,7 +215,7 @@ export function renderWorkshop(model, el) {
     else if (name[0] === "b") set({ a, b: swap(b, i), c, follows }, by);
     else set({ a, b, c: swap(follows ? sumsAsText() : c, i), follows: false }, by);
   }
-  const sumsAsText = () => good.numbers.c.map(writeEntry);
+  const sumsAsText = () => good.numbers.c.map((sum) => writeEntry(sum));
 
   const turn = make(sheet, "div", "se-turn"),
     turnName = make(turn, "label", "", { for: `${id}-turn` }),
@@ -268,7 +268,8 @@ export function renderWorkshop(model, el) {
       pulled = j;
       bendTo(j, Number(range.value) / FINE / factorial(j));
     });
-    range.addEventListener("change", () => (touched = ""));
+    // One pull, or what one does by keys until one goes elsewhere, is one step back.
+    for (const name of ["pointerdown", "blur"]) range.addEventListener(name, () => (touched = ""));
     levers.push({ box, range, output });
   }
 
@@ -626,16 +627,14 @@ export function renderWorkshop(model, el) {
     return found && away(found) <= NEAR[event.pointerType === "touch" ? "touch" : "mouse"] ? found : null;
   }
   function take(point, event) {
-    const [x, y] = spot(event);
-    grip = { off: [point[0] - x, point[1] - y], frame: sight.frame };
+    grip = { point, x: event.clientX, y: event.clientY, frame: sight.frame };
     touched = "";
     sky.setPointerCapture(event.pointerId);
     pull(event);
   }
   function pull(event) {
-    const [x, y] = spot(event),
-      { off, frame } = grip,
-      z = [frame.zx(x + off[0]), frame.zy(y + off[1])];
+    const { point, x, y, frame } = grip, // by the way it went: words above may push the picture down
+      z = [frame.zx(point[0] + (event.clientX - x) / zoom), frame.zy(point[1] + (event.clientY - y) / zoom)];
     if (Math.hypot(...z) < 0.2) return; // |R(0)| is 1 whatever one does
     const scale = factorial(pulled),
       found = scale * coefficientAt(coefficientsOf(good.numbers), pulled, z),
