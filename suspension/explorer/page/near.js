@@ -1,9 +1,8 @@
-// When the instruments of a built page begin: what one sees first at once, the others as one comes near
-// them, or when the browser has nothing else to do.
+// When the instruments of a built page begin: what one sees first at once, the others once that has been
+// painted, one at a time, or as soon as one comes near them.
 
 const MARGIN = "600px"; // beside the window: so near an instrument begins
 const BOXES = ".suspension-laboratory";
-const LATER = 300; // ms, where a browser does not tell that it has nothing to do
 
 /** What an address leads to: an instrument, by the word that its hashes begin with, or an element. */
 function targetOf(hash) {
@@ -23,7 +22,6 @@ function isAtOnce(box, hash) {
 
 /** Call `start(box, index)` once for each instrument of a kind, as soon as it is its turn. */
 export function startAll(kind, start) {
-  const rest = (task) => (window.requestIdleCallback ? requestIdleCallback(task) : setTimeout(task, LATER));
   const all = () =>
     document.querySelectorAll(`${BOXES}.${kind}`).forEach((box, index) => {
       let isBegun = false;
@@ -40,8 +38,8 @@ export function startAll(kind, start) {
       );
       if (isAtOnce(box, location.hash)) return begin();
       watch.observe(box);
-      // Not before the first instrument has been painted.
-      requestAnimationFrame(() => setTimeout(() => rest(begin)));
+      // A task of its own after the first picture, so that what one does comes between.
+      requestAnimationFrame(() => setTimeout(begin));
     });
   if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", all);
   else all();
