@@ -115,6 +115,16 @@ class Regimes:
         turns = np.diff(np.concatenate([[0], self.lost == lost, [0]]))
         return np.column_stack([self.edges[turns > 0], self.edges[turns < 0]])
 
+    @property
+    def regained(self):
+        """The ranges in which contact is kept although it is lost below them, ends first: (m, 2).
+
+        >>> Regimes([0.1, 0.4, 8, 30], [False, True, False]).regained
+        array([[ 8., 30.]])
+        """
+        kept = self.spans(lost=False)
+        return kept[kept[:, 0] > self.edges[0]]
+
     def __call__(self, v: ArrayLike) -> np.ndarray:
         """Whether contact is lost at values `v` within the edges: bool, of the shape of `v`.
 
