@@ -64,7 +64,7 @@ class Demands(NamedTuple):
         Who keeps contact is the better the larger the margin; who loses it is worse than all of
         these, and the worse the more of the way a wheel is in the air.
         """
-        contact = np.where(self.margin > 0, -self.margin, self.air)
+        contact = np.where(is_lost(self.margin), self.air, -self.margin)
         return np.array([contact, self.acceleration, self.compression])
 
 

@@ -7,6 +7,7 @@ contact no margin is told.
 
 import numpy as np
 
+from suspension.contact import is_lost
 from suspension.report.rows import table
 from suspension.report.words import (
     SPACE,
@@ -39,7 +40,8 @@ __all__ = [
 ]
 
 ALMOST = 0.2  # of a logarithm: a fifth more or less
-SHOWN = 0.005  # what two decimals do not show: a margin in N, a compression in delta_max
+SHOWN = 0.005  # of delta_max: what two decimals of a compression do not show
+AT_END = 0.999  # of an end of the map: a search that stops at a bound may end a hair before it
 
 
 def farthest(stiffest, strongest, asked, ends):
@@ -50,13 +52,17 @@ def farthest(stiffest, strongest, asked, ends):
     stiffest, strongest : suspension.choice.Choice or None
     asked : sequence of float
         Speeds, m/s.
-    ends : (float, float)
-        The stiffest springs, N/m, and the strongest dampers, N s/m, of the map.
+    ends : array_like, shape (2, 2)
+        Of the map: the softest and the stiffest springs, N/m; the weakest and the strongest
+        dampers, N s/m.
     """
     if stiffest is None:
         return f"**Nowhere** on this map is contact kept at {speed_list(asked)}."
     k, c = stiffest.robot.k1, strongest.robot.c1
-    soft, weak = (x < 0.999 * end for x, end in zip((k, c), ends, strict=True))
+    reached = [_reached(x, *pair) for x, pair in zip((k, c), ends, strict=True)]
+    if "least" in reached:
+        return _at_the_edge(k, c, reached, asked)
+    soft, weak = (far == "inside" for far in reached)
     where = [word for word, so in (("springs are soft", soft), ("dampers weak", weak)) if so]
     limits = [quantity(*x) for x, so in (((k, "N/m"), soft), ((c, "N s/m"), weak)) if so]
     if not where:
@@ -71,6 +77,34 @@ def farthest(stiffest, strongest, asked, ends):
         f"**Where {join(where) if len(where) > 1 else one}**: up to {join(limits)}. No "
         f"{none.get((soft, weak), 'stronger damper')} of this map keeps contact at "
         f"{speed_list(asked)}."
+    )
+
+
+def _reached(x, low, high):
+    """Where the farthest suspension with contact lies between two ends of the map."""
+    if x >= AT_END * high:
+        return "most"
+    return "inside" if AT_END * x > low else "least"
+
+
+def _at_the_edge(k, c, reached, asked):
+    """Contact is kept at the lower end of the map alone, of its stiffness, its damping or both."""
+    least = (
+        (f"its softest springs alone, {quantity(k, 'N/m')}", "softer springs"),
+        (f"its weakest dampers alone, {quantity(c, 'N s/m')}", "weaker dampers"),
+    )
+    more = (
+        {"inside": f"springs up to {quantity(k, 'N/m')}", "most": "springs up to its stiffest"},
+        {"inside": f"dampers up to {quantity(c, 'N s/m')}", "most": "dampers up to its strongest"},
+    )
+    words, beyond = [], []
+    for far, (one, other), further in zip(reached, least, more, strict=True):
+        words.append(f"with {one if far == 'least' else further[far]}")
+        if far == "least":
+            beyond.append(other)
+    return (
+        f"**Only at the edge of this map**: at {speed_list(asked)} contact is kept "
+        f"{', and '.join(words)}. {join(beyond).capitalize()} were not looked at."
     )
 
 
@@ -195,7 +229,7 @@ def choice_table(choices, candidates, limit):
 
 def _margin(margin):
     """A margin in N; after a loss it is none."""
-    return "lost" if margin < -SHOWN else fixed(margin, 2)
+    return "lost" if is_lost(margin) else fixed(margin, 2)
 
 
 def rest_note(fit, robot):
@@ -301,7 +335,7 @@ def robust_table(least):
         for case, margins in least.items()
     ]
     names = next(iter(least.values()))
-    safe = [name for name in names if all(m[name] > -SHOWN for m in least.values())]
+    safe = [name for name in names if not any(is_lost(m[name]) for m in least.values())]
     note = f"In every case contact is kept by: **{join(safe, none='none of them')}**."
     return f"{table(rows)}\n\n{note}"
 

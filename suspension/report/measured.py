@@ -14,6 +14,7 @@ from suspension.report.words import (
     SPACE,
     Caption,
     confidence,
+    count,
     fixed,
     interval,
     join,
@@ -65,7 +66,7 @@ def _on(names):
 # --- the law, at rest -----------------------------------------------------------------------------
 
 
-def law_caption(fit, at_rest, farthest):
+def law_caption(fit, laws, at_rest, farthest):
     """Caption of the laws; displacements at rest and farthest of the line, over delta_max."""
     x = np.linspace(0, 1, 101)
     apart = np.abs(fit.beta[0] + fit.beta[2] * x**2).max() / fit.beta.sum()
@@ -79,8 +80,8 @@ def law_caption(fit, at_rest, farthest):
         f"{fixed(farthest, 2)}."
     )
     text = (
-        f"Four laws for one spring. Where it was measured {where} Beyond "
-        rf"$\delta_{{\max{{}}}}$ (grey) each is an assumption{goes}"
+        f"{count(len(laws), 'law').capitalize()} for one spring. Where it was measured {where} "
+        rf"Beyond $\delta_{{\max{{}}}}$ (grey) each is an assumption{goes}"
     )
     return Caption(text, alt)
 
@@ -187,8 +188,8 @@ def margins_caption(critical):
     """Caption of the margins; `critical` holds the critical speeds for each law, m/s."""
     each = "; ".join(f"{name}: {speed_list(v, none='none')}" for name, v in critical.items())
     text = (
-        "The margin against speed on four laws. Symbols: critical speeds; dotted: the asked "
-        "speeds. Where a curve lies on zero, contact is lost."
+        f"The margin against speed on {count(len(critical), 'law')}. Symbols: critical speeds; "
+        "dotted: the asked speeds. Where a curve lies on zero, contact is lost."
     )
     alt = (
         "Least normal force against speed on a logarithmic axis, a curve for each of the laws, "
@@ -396,7 +397,7 @@ def draws_sentence(kept, drawn, linear):
     if not linear:
         words += (
             " The readings contradict the line, which is kept here because the problem set asks "
-            "for its slope: where it stands alone against the other three, believe those."
+            "for its slope: where it stands alone against all the others, believe those."
         )
     return words
 
@@ -496,7 +497,7 @@ def _stands(study):
         return "None of the asked verdicts can be signed whatever the law is."
     return (
         f"Contact is {join(sorted(stands))}: neither the scatter of the readings nor the choice "
-        "among the four laws changes that."
+        f"among the {count(len(study.laws), 'law')} changes that."
     )
 
 
@@ -517,7 +518,8 @@ def _open(study):
             f"At {speed_list(near)} the verdict is **open**: the margin is too near to zero for "
             "these readings."
         )
-    return " ".join(words) or "None of the asked verdicts is left open by these four laws."
+    laws = count(len(study.laws), "law")
+    return " ".join(words) or f"None of the asked verdicts is left open by these {laws}."
 
 
 def _readings_or_law(study):

@@ -82,16 +82,19 @@ def _place(x, spacing):
 
 
 def _least(run, wheel):
-    """The least force of a wheel, and whether it comes before or after the first loss."""
+    """The least force of a wheel, and whether it comes before or after the first loss.
+
+    After it, the ground of the linear model pulls: what is left of the number is its sign.
+    """
     N = run.N[wheel]
-    if run.loss is None:
-        return fixed(N.min(), 2)
+    least, loss = N.min(), run.loss
+    if loss is None:
+        return fixed(least, 2)
     t = run.T[N.argmin()]
-    if t == run.loss.t:
-        when = "at the loss"
-    else:
-        when = "before" if t < run.loss.t else "after"
-    return f"{fixed(N.min(), 2)} ({when})"
+    if t < loss.t:
+        return f"{fixed(least, 2)} (before)"
+    sign = "< 0" if least < 0 else "> 0" if least > 0 else "0"
+    return f"{sign} ({'at the loss' if t == loss.t else 'after'})"
 
 
 def facts(values):

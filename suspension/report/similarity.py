@@ -29,7 +29,7 @@ __all__ = [
 NEARLY_CONSTANT = 1.5  # the largest over the least
 
 
-def heights_table(speeds, heights, bump):
+def heights_table(speeds, heights, bump, lost):
     """The highest bump that is crossed with contact at each speed, beside the one there is.
 
     Parameters
@@ -38,6 +38,8 @@ def heights_table(speeds, heights, bump):
         m/s and m.
     bump : float
         Height of the problem's, m.
+    lost : sequence of bool
+        Whether contact is lost over it at each speed, as `suspension.contact.is_lost` says.
     """
     this = f"the bump, {1000 * bump:.1f}{SPACE}mm"
     return table(
@@ -45,9 +47,9 @@ def heights_table(speeds, heights, bump):
             {
                 "v (m/s)": f"{v:g}",
                 "highest bump (mm)": number(1000 * height),
-                this: "kept" if height > bump else "lost",
+                this: "lost" if gone else "kept",
             }
-            for v, height in zip(speeds, heights, strict=True)
+            for v, height, gone in zip(speeds, heights, lost, strict=True)
         ]
     )
 
@@ -72,29 +74,32 @@ def two_ways(found):
         return "No speed that was looked at is safe."
     if len(kept) == 1 and kept[0, 0] == low and kept[0, 1] == high:
         return "Every speed that was looked at is safe."
-    words = []
+    words, narrow = [], []
     for start, end in kept:
         if start == low:
             words.append(f"so slowly that the body follows the bump, below {number(end)}{SPACE}m/s")
-        elif end == high:
+            continue
+        if end == high:
             words.append(f"so fast that the kick is small, above {number(start)}{SPACE}m/s")
+            continue
+        between = f"from {number(start)} to {number(end)}{SPACE}m/s"
+        if end < WIDE * start:
+            narrow.append(between)
+            words.append(between)
         else:
             words.append(
-                f"so fast that the kick is small and not so fast that the damper pulls, from "
-                f"{number(start)} to {number(end)}{SPACE}m/s"
+                f"so fast that the kick is small and not so fast that the damper pulls, {between}"
             )
     if len(words) == 1:
-        return f"There is **one way** to be safe: {words[0]}."
-    numbers = {2: "two", 3: "three", 4: "four"}
-    narrow = [
-        f"{number(start)} to {number(end)}{SPACE}m/s"
-        for start, end in kept
-        if low < start and end < WIDE * start
-    ]
-    text = f"There are **{numbers.get(len(words), len(words))} ways** to be safe: "
-    text += "; ".join(words[:-1]) + f"; or {words[-1]}."
-    if narrow:
-        text += f" The range from {join(narrow)} is too narrow to drive in."
+        text = f"There is **one way** to be safe: {words[0]}."
+    else:
+        numbers = {2: "two", 3: "three", 4: "four"}
+        text = f"There are **{numbers.get(len(words), len(words))} ways** to be safe: "
+        text += "; ".join(words[:-1]) + f"; or {words[-1]}."
+    if len(narrow) == 1:
+        text += f" The range {narrow[0]} is too narrow to drive in."
+    elif narrow:
+        text += f" The ranges {join(narrow)} are too narrow to drive in."
     return text
 
 

@@ -32,44 +32,56 @@ def diagram_caption(question, scheme, eigenvalues, dts):
     dts : sequence of float
         Time steps, s; the points of the smallest are enlarged.
     """
-    places = _places(scheme, eigenvalues, dts)
     n = NUMBERS[len(eigenvalues)]
     region, border = "left half-plane", ""
     if np.isfinite(scheme.max_stable_dt([-1, 1j])):
         region = "region"
         border = r" The border was found by following $R(z) = e^{i\varphi}$ from $z = 0$."
+    told = [
+        _places(scheme, eigenvalues, dts, name)
+        for name in (r"$\lambda_k\Delta t$", "lambda times dt")
+    ]
     text = (
-        f"**Question {question}.** {scheme.name} is absolutely stable in the shaded {region}. Of "
-        rf"the {n} points $\lambda_k\Delta t$ of each step, {places}. The inset enlarges the "
+        f"**Question {question}.** {scheme.name} is absolutely stable in the shaded {region}. "
+        f"{told[0]} The inset enlarges the "
         f"surroundings of $z = 0$, where the {n} points of {min(dts):g}{SPACE}s lie; it is "
         f"stretched horizontally.{border}"
     )
     alt = (
-        f"Stability diagram of {scheme.name} with a shaded {region}. Of the {n} points lambda "
-        f"times dt of each step, {places}. An inset enlarges those of {min(dts):g}{SPACE}s, next "
-        "to the origin."
+        f"Stability diagram of {scheme.name} with a shaded {region}. "
+        f"{told[1]} An inset enlarges those of "
+        f"{min(dts):g}{SPACE}s, next to the origin."
     )
     return Caption(text, alt)
 
 
-def _places(scheme, eigenvalues, dts):
-    """Where the points of each step lie, steps of a kind together."""
+def _places(scheme, eigenvalues, dts, name):
+    """A sentence on where the points, of such a name, lie; steps with the same places together."""
     steps = {}
     for dt in dts:
         steps.setdefault(_place(scheme, eigenvalues, dt), []).append(dt)
-    return join(f"{place} at {dt_list(dts)}" for place, dts in steps.items())
+    n = NUMBERS[len(eigenvalues)]
+    words = []
+    for place, alike in steps.items():
+        points = "" if words else f" points {name}"  # named once
+        if len(place) == 1:
+            lie = f"all {n}{points} lie {place[0][0]}"
+        else:
+            (first, m), *rest = place
+            lie = f"{NUMBERS[m]} of the {n}{points} lie "
+            lie += join([first, *(f"{NUMBERS[m]} {where}" for where, m in rest)])
+        words.append(f"at {dt_list(alike)} {lie}")
+    return f"A{'; '.join(words)[1:]}."
 
 
 def _place(scheme, eigenvalues, dt):
-    """How many points lie inside the region, on its border and outside."""
+    """Where the points of a step lie, and how many there: inside, on the border, outside."""
     growth = np.abs(scheme.stability_function(np.asarray(eigenvalues) * dt))
     inside = int((growth < 1 - 1e-12).sum())
     outside = int((growth > 1 + 1e-12).sum())
-    places = {"inside": inside, "on its border": len(growth) - inside - outside, "outside": outside}
-    filled = {place: n for place, n in places.items() if n}
-    if len(filled) == 1:
-        return f"all lie {next(iter(filled))}"
-    return join(f"{NUMBERS[n]} lie {place}" for place, n in filled.items())
+    border = len(growth) - inside - outside
+    places = (("inside", inside), ("on its border", border), ("outside", outside))
+    return tuple((where, n) for where, n in places if n)
 
 
 def diagram_link(eigenvalues, dts, page, name):

@@ -57,23 +57,25 @@ def same_at_half_the_step(runs, halved):
     sentence = (
         rf"At $\Delta t$ = {halved[0].dt:g} s {_lost_phrase(halved)}: the conclusions {change}."
     )
-    kept = [pair for pair in zip(runs, halved, strict=True) if not any(_lost(pair))]
+    kept = _both_kept(runs, halved)
     if not kept:
         return sentence
-    moved = _difference(*zip(*kept))
-    return f"{sentence} Where contact is kept, the least forces move by {moved}."
+    return f"{sentence} Where contact is kept, the least forces move by {_difference(kept)}."
 
 
 def same_by_another_scheme(runs, others):
     """Answer 10(i): where contact is lost, and whether Part II, `others`, says the same."""
     agree = "agree" if _lost(runs) == _lost(others) else "do **not** agree"
     after = " and of the forces “after” a loss" if any(_lost(runs)) else ""
+    kept = _both_kept(runs, others)
+    differ = ""
+    if kept:
+        differ = f"; where contact is kept, the least forces differ by {_difference(kept)}"
     parts = [
         lost_sentence(runs),
         table([verdict(run) for run in runs]),
-        f"The verdicts {agree} with those of Part II; the least forces differ by "
-        f"{_difference(runs, others)}. What [Question 6]({QUESTION_6}) says of the spring{after} "
-        "holds here, too.",
+        f"The verdicts {agree} with those of Part II{differ}. What "
+        f"[Question 6]({QUESTION_6}) says of the spring{after} holds here, too.",
     ]
     return "\n\n".join(parts)
 
@@ -82,9 +84,13 @@ def _lost(runs):
     return [run.loss is not None for run in runs]
 
 
-def _difference(runs, others):
-    """By how much the wheels' least forces differ between two sets of runs."""
-    pairs = zip(runs, others, strict=True)
+def _both_kept(runs, others):
+    """The pairs of runs that both keep contact; after a loss a least force is no quantity."""
+    return [pair for pair in zip(runs, others, strict=True) if not any(_lost(pair))]
+
+
+def _difference(pairs):
+    """By how much the wheels' least forces differ between the runs of each pair."""
     largest = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in pairs)
     return f"at most {quantity(largest, 'N', 2)}"
 
@@ -128,8 +134,9 @@ def table_note(runs):
     )
     if any(_lost(runs)):
         note += (
-            " “After” is after the first loss, where the linear model lets the ground pull: such a "
-            "number is no force, and how negative it is says nothing about the real robot."
+            " “After” is after the first loss, where the linear model lets the ground pull. A "
+            "number from there is no force of the real robot, and how far it is from zero says "
+            "nothing: the table gives only its sign."
         )
     return note
 

@@ -20,6 +20,7 @@ LEAST, RESERVED = Choice(SOFT, 1.05, 0.0), Choice(fitted_with(ROBOT, 256, 1.58),
 WIDE = Choice(fitted_with(ROBOT, 161, 1.6), 1.6, 0.71)
 OWN = Choice(ROBOT, 0.0, 1.2)
 STIFFEST = Choice(fitted_with(ROBOT, 280, 1.97), 1.1, 0.0)
+MAP = (100, 3200), (0.3, 15)  # N/m, N s/m
 HARD = Choice(fitted_with(ROBOT, 900, 3), 1, 0)
 LIMIT = 0.0165  # m
 
@@ -58,7 +59,7 @@ def test_sentences_about_any_spring_are_sound(k):
         "k less": {"as it is": 1, "contact": 2},
     }
     texts = [
-        part.farthest(STIFFEST, STIFFEST, ASKED, (3200, 15)),
+        part.farthest(STIFFEST, STIFFEST, ASKED, MAP),
         part.beaten(robot, []),
         part.beaten(robot, [(700, 3)]),
         part.choice_table(CHOICES, candidates, LIMIT),
@@ -85,12 +86,42 @@ def test_sentences_about_any_spring_are_sound(k):
     ],
 )
 def test_the_farthest_springs_and_dampers(ends, words):
+    ends = [(low, high) for (low, _), high in zip(MAP, ends)]
     text = plain(part.farthest(STIFFEST, Choice(SOFT, 1, 0), ASKED, ends))
     assert words in text and "at 0.25, 1.2, 5 and 10 m/s" in text and not faults(text)
 
 
+@pytest.mark.parametrize(
+    ("k", "c", "words"),
+    [
+        (
+            100,
+            1.57,
+            "its softest springs alone, 100 N/m, and with dampers up to 1.57 N s/m. Softer",
+        ),
+        (100, 15, "alone, 100 N/m, and with dampers up to its strongest. Softer springs were not"),
+        (280, 0.3, "with springs up to 280 N/m, and with its weakest dampers alone, 0.300 N s/m."),
+        (3200, 0.3, "with springs up to its stiffest, and with its weakest dampers alone"),
+        (100, 0.3, "dampers alone, 0.300 N s/m. Softer springs and weaker dampers were not looked"),
+    ],
+)
+def test_contact_at_the_lower_end_of_the_map_alone(k, c, words):
+    stiffest, strongest = (Choice(fitted_with(ROBOT, k, c), 1, 0) for _ in "kc")
+    text = plain(part.farthest(stiffest, strongest, ASKED, MAP))
+    assert text.startswith("**Only at the edge of this map**: at 0.25, 1.2, 5 and 10 m/s contact")
+    assert words in text and not faults(text)
+
+
+def test_an_end_of_the_map_is_reached_within_a_thousandth():
+    found = {0.9985 * 3200: "Where springs are soft", 0.9995 * 3200: "Not only where"}
+    found |= {100 * 1.0015: "Where springs are soft", 100 * 1.0005: "Only at the edge"}
+    for k, words in found.items():
+        stiffest, strongest = (Choice(fitted_with(ROBOT, k, c), 1, 0) for c in (1, 15))
+        assert words in part.farthest(stiffest, strongest, ASKED, MAP)
+
+
 def test_where_no_suspension_keeps_contact_none_is_named():
-    assert "**Nowhere**" in part.farthest(None, None, ASKED, (3200, 15))
+    assert "**Nowhere**" in part.farthest(None, None, ASKED, MAP)
 
 
 def test_the_room_after_a_lift_off_is_told_apart_from_that_before():
@@ -138,8 +169,10 @@ def test_after_a_loss_no_margin_is_told():
     assert "| as it is | 793 | 1.50 | – | lost | lost | lost | lost |" in table
     assert "2.5" not in table
     assert "| contact | 277 | 1.57 | 1.05 | 0.30 |" in table and "16.0" in table and "44 %" in table
-    lost = plain(part.robust_table({"thought": {"it": -24.58, "other": -0.001}}))
-    assert "| thought | lost | 0.00 |" in lost
+    margins = {"it": -24.58, "other": -0.001, "edge": 0.0, "kept": 1e-7}
+    lost = plain(part.robust_table({"thought": margins}))
+    assert "| thought | lost | lost | lost | 0.00 |" in lost
+    assert lost.endswith("contact is kept by: **kept**.")
 
 
 def test_who_keeps_contact_in_every_case_is_told():

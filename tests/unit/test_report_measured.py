@@ -86,7 +86,7 @@ def test_all_texts_are_sound(name):
         findings[law] = Findings(runs[law], drawn[law], at, followed)
     study = Study(ASKED, DELTA_MAX, findings)
     texts = [
-        *part.law_caption(fit, 0.54, 2.1),
+        *part.law_caption(fit, laws, 0.54, 2.1),
         part.statics_table(laws, robot),
         part.verdict_table(ASKED, runs),
         part.verdict_sentence(ASKED, runs),
@@ -113,10 +113,23 @@ def test_all_texts_are_sound(name):
 
 
 def test_the_caption_says_whether_the_line_follows_the_readings():
-    assert "hardly differ" in part.law_caption(FITS["linear"], 0.5, 2).text
-    assert "only the line leaves" in part.law_caption(FITS["curved"], 0.5, 2).text
-    assert "does not go there" in part.law_caption(FITS["linear"], 0.5, 0.9).text
-    assert isinstance(part.law_caption(FITS["linear"], 0.5, 0.9), Caption)
+    assert "hardly differ" in part.law_caption(FITS["linear"], LAWS, 0.5, 2).text
+    assert "only the line leaves" in part.law_caption(FITS["curved"], LAWS, 0.5, 2).text
+    assert "does not go there" in part.law_caption(FITS["linear"], LAWS, 0.5, 0.9).text
+    assert isinstance(part.law_caption(FITS["linear"], LAWS, 0.5, 0.9), Caption)
+
+
+def test_laws_are_counted():
+    for n, words in ((2, "two laws"), (3, "three laws"), (4, "four laws")):
+        names = LAWS[:n]
+        caption = part.law_caption(FITS["linear"], names, 0.5, 2).text
+        assert caption.startswith(f"{words.capitalize()} for one spring.")
+        critical = dict.fromkeys(names, (0.4,))
+        assert f"against speed on {words}." in part.margins_caption(critical).text
+        laws = {name: Findings(run(5.0), draws(np.full(128, 5.0)), [], []) for name in names}
+        text = part.conclusions(Study((1,), DELTA_MAX, laws))
+        assert f"the choice among the {words} changes" in text
+        assert f"left open by these {words}." in text
 
 
 def test_rest_beyond_the_readings_is_told():

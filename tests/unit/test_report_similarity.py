@@ -9,6 +9,7 @@ from cases import STIFFNESSES, faults
 from suspension.contact import Regimes, regimes
 from suspension.problem import SPEEDS
 from suspension.report import similarity as part
+from suspension.report.regimes import WIDE
 from suspension.report.rows import table
 from suspension.road import GaussianBump
 from suspension.robot import Robot
@@ -37,6 +38,12 @@ CASES = {  # edges, lost, and what the sentences must say
     "three": ([0.1, 0.4, 1, 2, 3, 9, 60], [0, 1, 0, 1, 0, 1], "three ways"),
     "a hair": ([0.1, 0.4, 7, 7.2, 60], [0, 1, 0, 1], "too narrow"),
     "fast alone": ([0.1, 5, 60], [1, 0], "above 5.00 m/s"),
+    "a hair alone": ([0.1, 7, 7.2, 60], [1, 0, 1], "one way** to be safe: from 7.00 to 7.20 m/s."),
+    "two hairs": (
+        [0.1, 7, 7.2, 9, 9.3, 60],
+        [1, 0, 1, 0, 1],
+        "from 7.00 to 7.20 m/s and from 9.00 to 9.30 m/s are too narrow",
+    ),
     "always": ([0.1, 60], [0], "Every speed"),
     "never": ([0.1, 60], [1], "No speed"),
 }
@@ -64,10 +71,17 @@ def test_every_kind_of_regimes_has_its_words(name):
 
 def test_only_a_window_is_called_narrow():
     assert "narrow" not in part.two_ways(Regimes([0.1, 0.105, 7, 20, 60], [0, 1, 0, 1]))
+    assert "narrow" not in part.two_ways(Regimes([0.1, 0.4, 58, 60], [0, 1, 0]))  # it may go on
+
+
+@pytest.mark.parametrize("factor, narrow", [(0.999, True), (1.001, False)])
+def test_a_narrow_range_is_told_without_a_cause(factor, narrow):
+    text = part.two_ways(Regimes([0.1, 0.4, 7, 7 * WIDE * factor, 60], [0, 1, 0, 1]))
+    assert ("too narrow" in text) == narrow and ("damper pulls" in text) != narrow
 
 
 def test_each_speed_has_its_highest_bump_and_the_verdict_on_ours():
-    text = plain(part.heights_table([0.25, 1.2], [0.117, 0.00572], 0.0254))
+    text = plain(part.heights_table([0.25, 1.2], [0.117, 0.00572], 0.0254, [False, True]))
     assert "| the bump, 25.4 mm |" in text
     assert "| 0.25 | 117 | kept |" in text and "| 1.2 | 5.72 | lost |" in text
     sound(text)

@@ -38,16 +38,25 @@ def test_the_steps_are_sorted_by_their_verdict():
 def test_the_caption_says_where_the_points_lie():
     damped, undamped = Robot(793, 793).eigenvalues, 30j * np.array([1, -1, 1.2, -1.2])
     caption = part.diagram_caption("4(i)", CRANK_NICOLSON, damped, STEPS)
-    place = "all lie inside at 0.2, 0.1 and 0.001\u00a0s"
-    assert place in caption.text and place in caption.alt
+    for text, name in zip(caption, (r"$\lambda_k\Delta t$", "lambda times dt")):
+        assert f" At 0.2, 0.1 and 0.001\u00a0s all four points {name} lie inside. " in text
     caption = part.diagram_caption("4(i)", CRANK_NICOLSON, undamped, STEPS)
-    assert "all lie on its border" in caption.text
+    assert "s all four points lambda times dt lie on its border. An" in caption.alt
     caption = part.diagram_caption("7(i)", RK4, damped, STEPS)
-    assert "all lie outside at 0.2 and 0.1\u00a0s" in caption.text
+    places = "At 0.2 and 0.1\u00a0s all four points lambda times dt lie outside; at 0.001\u00a0s "
+    assert places + "all four lie inside. An" in caption.alt
     caption = part.diagram_caption("7(i)", RK4, Robot(405, 405).eigenvalues, STEPS)
-    assert "all lie inside at 0.1 and 0.001\u00a0s" in caption.alt
+    assert "; at 0.1 and 0.001\u00a0s all four lie inside. An" in caption.alt
     caption = part.diagram_caption("7(i)", RK4, Robot(500, 500).eigenvalues, STEPS)
-    assert "two lie inside and two lie outside at 0.1" in caption.text
+    assert "; at 0.1\u00a0s two of the four lie inside and two outside; at 0.001" in caption.text
+    caption = part.diagram_caption("7(i)", RK4, Robot(500, 500).eigenvalues, [0.1])
+    places = "At 0.1\u00a0s two of the four points lambda times dt lie inside and two outside. An"
+    assert places in caption.alt
+    three = part.diagram_caption("7(i)", CRANK_NICOLSON, [-10, -5, 9j, 9], [0.1])
+    assert (
+        "two of the four points lambda times dt lie inside, one on its border and one o"
+        in three.alt
+    )
 
 
 def test_what_is_shaded_follows_from_the_scheme():

@@ -125,9 +125,14 @@ def test_another_scheme_agrees_or_is_told_not_to():
         assert not faults(text)
         assert "The verdicts agree with those of Part II" in text
         assert ("“after” a loss" in text) == any(run.loss for run in runs)
+        assert ("; where contact is kept, the least forces differ" in text) == (
+            not all(run.loss for run in runs)
+        )
     other = drives(Robot(987, 987))
     text = part.same_by_another_scheme(drives(Robot(793, 793)), other)
     assert "do **not** agree" in text
+    lost = part.same_by_another_scheme(drives(Robot(2300, 2300))[1:], other[1:])
+    assert "agree with those of Part II. What" in lost and "differ" not in lost
 
 
 @pytest.mark.parametrize("k", [250, 793, 2300])
@@ -147,11 +152,23 @@ def test_half_the_step(k):
 
 
 def test_how_far_the_least_forces_move_is_told_of_what_is_kept_alone():
-    runs, halved = drives(Robot(793, 793)), drives(Robot(793, 793), 0.0005)
-    (told,) = re.findall(r"at most ([\d.]+)", part.same_at_half_the_step(runs, halved))
-    kept = [(a, b) for a, b in zip(runs, halved) if not a.loss]
-    moved = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in kept)
-    assert float(told) == pytest.approx(moved, rel=0.05)
+    runs = drives(Robot(793, 793))
+    others = {
+        part.same_at_half_the_step: drives(Robot(793, 793), 0.0005),
+        part.same_by_another_scheme: drives(Robot(793, 793), scheme=RK4),
+    }
+    for sentence, compared in others.items():
+        (told,) = re.findall(r"at most ([\d.]+)", sentence(runs, compared))
+        kept = [(a, b) for a, b in zip(runs, compared) if not a.loss]
+        moved = max(np.abs(a.N.min(axis=1) - b.N.min(axis=1)).max() for a, b in kept)
+        assert float(told) == pytest.approx(moved, rel=0.05)
+
+
+def test_no_table_gives_the_tenths_of_a_force_after_a_loss():
+    runs = drives(Robot(793, 793))
+    text = part.verdict_table(runs, compressions(Robot(793, 793)))
+    assert "< 0 (after)" in text and "−" not in text
+    assert "only its sign" in part.table_note(runs)
 
 
 @pytest.mark.parametrize("k", STIFFNESSES)

@@ -36,13 +36,29 @@ def test_a_kept_verdict_has_no_loss():
 def test_a_lost_verdict_tells_forces_before_the_loss_from_those_after():
     row = rows.verdict(drive(ROBOT, 1.2), 1.39)
     assert (row["contact"], row["wheel"], row["at t (s)"]) == ("lost", "front", "0.177")
-    assert row["least $N_1$ (N)"] == "−24.58 (after)"
-    assert row["least $N_2$ (N)"] == "−17.83 (after)"
+    assert row["least $N_1$ (N)"] == row["least $N_2$ (N)"] == "< 0 (after)"
     run = drive(ROBOT, 1.2)
     at_loss = run.N[1, : round(run.loss.t / run.dt) + 1]
     short = replace(run, T=run.T[: at_loss.size], N=run.N[:, : at_loss.size])
-    assert rows.verdict(short, 1)["least $N_2$ (N)"].endswith("(at the loss)")
-    assert rows.verdict(short, 1)["least $N_1$ (N)"].endswith("(before)")
+    assert rows.verdict(short, 1)["least $N_2$ (N)"] == "< 0 (at the loss)"
+    before = short.N[0].min()
+    assert before > 0 and short.N[0].argmin() < short.T.size - 1
+    assert rows.verdict(short, 1)["least $N_1$ (N)"] == f"{before:.2f} (before)"
+
+
+def test_after_a_loss_a_least_force_is_a_sign_and_a_place():
+    run = drive(ROBOT, 1.2)
+    at = round(run.loss.t / run.dt)
+    assert at == np.flatnonzero((run.N <= 0).any(axis=0))[0]
+    for lowest, sign in ((-3.21, "< 0"), (0.0, "0"), (1.23, "> 0")):
+        N = np.full_like(run.N, 7.0)
+        N[1, at], N[0, at + 5] = (
+            -4.56,
+            lowest,
+        )  # the front wheel is lost, the rear one's least after
+        row = rows.verdict(replace(run, N=N))
+        assert row["least $N_1$ (N)"] == f"{sign} (after)"
+        assert row["least $N_2$ (N)"] == "< 0 (at the loss)"
 
 
 @pytest.mark.parametrize(("dt", "decimals"), [(0.001, 3), (0.0005, 4)])
