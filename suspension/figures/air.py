@@ -3,7 +3,7 @@
 import numpy as np
 
 from suspension.figures.speeds import speed_axis
-from suspension.figures.style import LINES, axes_or_new
+from suspension.figures.style import FIELDS, LINES, axes_or_new
 
 __all__ = ["plot_energy", "plot_free_wheels", "plot_heaviest_wheel"]
 
@@ -52,8 +52,9 @@ def plot_heaviest_wheel(v, mass, marked=(), asked=(), ax=None):
     high = 3 * max([*(grams[drawn]), *marks, 10.0])
     speed_axis(ax, v)
     top = np.where(np.isinf(grams), high, np.clip(grams, low, high))
-    ax.fill_between(v, low, top, where=grams > 0, color="#d7e9f5", lw=0, label="contact kept")
-    ax.axhspan(low, high, color="#fbe3d6", lw=0, zorder=0, label="contact lost")
+    kept = {"where": grams > 0, "color": FIELDS["kept"], "label": "contact kept"}
+    ax.fill_between(v, low, top, lw=0, **kept)
+    ax.axhspan(low, high, color=FIELDS["lost"], lw=0, zorder=0, label="contact lost")
     ax.plot(v, np.where(drawn, grams, np.nan), color="C0", lw=2, label="heaviest wheel pair")
     for m in marks:
         ax.axhline(m, color="0.35", lw=0.9, ls=":")

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.ticker import NullFormatter, NullLocator
 
-from suspension.figures.style import COLOURS, LINES, axes_or_new
+from suspension.figures.style import COLOURS, FIELDS, LINES, axes_or_new
 from suspension.forces import WHEEL
 
 __all__ = [
@@ -16,9 +16,6 @@ __all__ = [
     "plot_travel",
     "speed_axis",
 ]
-
-
-SHADE = "#fbe3d6"  # of speeds at which contact is lost
 
 
 def speed_axis(ax, v):
@@ -70,7 +67,7 @@ def plot_margin(v, N, regimes, asked=(), beyond=(), ax=None):
     speed_axis(ax, v)
     critical = regimes.critical
     for left, right in regimes.spans(lost=True):
-        ax.axvspan(left, right, color=SHADE, lw=0, zorder=0)
+        ax.axvspan(left, right, color=FIELDS["lost"], lw=0, zorder=0)
     above = {"transform": ax.get_xaxis_transform(), "ha": "center", "color": "0.3"}
     for lost, word in ((False, "kept"), (True, "lost")):
         for left, right in regimes.spans(lost):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from suspension.figures.style import MARKERS, axes_or_new
+from suspension.figures.style import FIELDS, MARKERS, axes_or_new
 
 __all__ = ["plot_growth", "plot_near_zero", "plot_stability"]
 
@@ -65,7 +65,7 @@ def draw_region(ax, scheme, window):
     """Shade where ``|R(z)| <= 1`` in a window (left, right, bottom, top) and draw its border."""
     x, y = np.linspace(*window[:2], 481), np.linspace(*window[2:], 481)
     growth = np.abs(scheme.stability_function(x + 1j * y[:, None]))
-    ax.contourf(x, y, growth, levels=[0, 1], colors=["#cfe6f5"])
+    ax.contourf(x, y, growth, levels=[0, 1], colors=[FIELDS["kept"]])
     ax.plot(*scheme.boundary(4000).T, color="C0", lw=1.4, label=r"$|R(z)| = 1$")
     ax.axhline(0, color="0.6", lw=0.6)
     ax.axvline(0, color="0.6", lw=0.6)

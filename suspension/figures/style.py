@@ -5,7 +5,7 @@ import matplotlib.pyplot as plt
 __all__ = ["COLOURS", "FIELDS", "LINES", "MARKERS", "axes_or_new"]
 
 COLOURS = ("C0", "C1")  # rear, front
-FIELDS = {"kept": "#cfe6f5", "lost": "#fbe3d6"}  # tones that the page has for the dark, too
+FIELDS = {"kept": "#cfe6f5", "lost": "#fbe3d6"}  # book/style/suspension.css has a dark tone of each
 LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 1)))  # rear, front, others
 MARKERS = "o^sDvPX*"
 

@@ -32,6 +32,7 @@ __all__ = [
     "who_flies",
 ]
 
+SHORT = 1e-6  # s; switches that are less apart agree to the microsecond that the sentence names
 NO_JUMP = 1e-3  # N; a force that returns with less comes back smoothly
 
 
@@ -211,7 +212,7 @@ def rules_apart(flights, relaxed):
         moved += [abs(a.t - b.t) for a, b in pairs]
     if not moved:
         return "At the asked speeds no wheel flies, so the two rules are one."
-    within = "a microsecond" if max(moved) < 1e-6 else quantity(1e3 * max(moved), "ms", 2)
+    within = "a microsecond" if max(moved) < SHORT else quantity(1e3 * max(moved), "ms", 2)
     return f"At the asked speeds their switches agree to {within}."
 
 

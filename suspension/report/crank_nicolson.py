@@ -32,6 +32,8 @@ AS_EXPECTED = 0.05  # how far, relatively, an observed factor may be from the pr
 ROUNDOFF = 1e-9  # part of the largest error, below which an error is none
 TOGETHER = 0.02  # an error by less than this part of the largest pitch cannot be seen
 ABOUT = 0.05  # a rate that is wrong by less than this part of itself is about right
+UNDAMPED = 1e-9  # a decay by less than this part of the size of lambda is roundoff of the solver
+SAME_SHARE = 1e-9  # of heave: what roundoff may part in a conjugate pair
 HARDLY = 0.2  # below this part of the true rate, a swing hardly dies away
 
 
@@ -61,7 +63,7 @@ def modes(robot):
     ratios = -z.real / np.abs(z)
     shown = sorted({fixed(ratio, 3) for ratio in ratios})
     ratio = f"damping ratio{'s' if len(shown) > 1 else ''} {join(shown)}"
-    if ratios.max() < 1e-9:
+    if ratios.max() < UNDAMPED:
         damping = "The robot is *undamped*: the eigenvalues lie on the imaginary axis."
     elif ratios.max() < LIGHT:
         damping = (
@@ -114,7 +116,7 @@ def coarse(robot, scheme, dt):
             f"**It {head}.** The robot's pitch does not swing. In {step} the faster part of it "
             f"shrinks to {kept}, the computed one to {left}{' and flips' if flips else ''}."
         )
-    if dies > -1e-9 * abs(z):
+    if dies > -UNDAMPED * abs(z):
         end = "never dies away, as it should not"
     elif decay > HARDLY * dies:
         end = "hardly dies away"
@@ -155,7 +157,7 @@ def _pitch(robot):
     """
     if _is_mixed(robot):
         least = robot.heave_share.min()
-        candidates = robot.eigenvalues[robot.heave_share < least + 1e-9]
+        candidates = robot.eigenvalues[robot.heave_share < least + SAME_SHARE]
     else:
         candidates = np.linalg.eigvals(robot.A[2:, 2:]).astype(complex)
     return max(candidates, key=lambda z: (z.imag, abs(z)))
@@ -243,7 +245,7 @@ def phase_error(robot, run, exact):
     if pitch.imag == 0:
         return f"Here the pitch does not swing: it creeps back, and {found}."
     left = percent(-2 * pitch.real / pitch.imag)
-    if -pitch.real < 1e-9:
+    if -pitch.real < UNDAMPED * abs(pitch):
         return f"Here nothing dies away, and the error grows to the end: {found}."
     wins = rf"$1/\beta$ = {fixed(-1 / pitch.real, 2)}{SPACE}s"
     if -pitch.real * run.T[-1] < 1:

@@ -53,6 +53,7 @@ __all__ = [
 ]
 
 WIDE = 1.1  # a range of speeds from v to 1.1 v can be driven in; a narrower one is a curiosity
+FURTHER = 1.5  # compressions up to this many times the measured one are told in per cent
 APART = 1.01  # two ranges, one to v, the other from 1.01 v on, are told as two
 SMALL_ANGLE = "../notebooks/06-how-sure.ipynb#and-the-small-angle"
 HALVED = 0.05  # a factor so near to two, relative, is called two
@@ -150,7 +151,7 @@ def _where(found, low, high):
 
 def _further(times):
     """By how much a compression exceeds the measured ones, from their ratio."""
-    if times < 1.5:
+    if times < FURTHER:
         return f" (by up to {percent(times - 1)})"
     return f" (up to {number(times, 2)} times as far)"
 

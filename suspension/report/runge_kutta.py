@@ -23,6 +23,7 @@ __all__ = [
 
 ROUNDOFF = 1e-9  # a mode whose amplitude grows by less has kept it
 NOTHING = 1e-12  # an acceleration below it is roundoff, SI units
+ALIKE = 1e-6  # of the weight: forces nearer than this are one in all the digits that are told
 AS_PROMISED = 0.1  # an error that falls by the factor of its order, within this part
 
 
@@ -65,7 +66,7 @@ def at_rest(robot, road, output):
     wdot, N1, N2 = output
     weight = robot.m * robot.g
     share = f"together the weight of {quantity(weight, 'N', 4)}"
-    if abs(N1 - N2) < 1e-6 * weight:
+    if abs(N1 - N2) < ALIKE * weight:
         share = "half the weight each"
     entries = ", ".join("0" if abs(x) < NOTHING else number(x) for x in wdot)
     return (

@@ -27,6 +27,8 @@ __all__ = [
 ]
 
 NEARLY_CONSTANT = 1.5  # the largest over the least
+MATTERS = 1.01  # a curve that is higher by less than this factor is the same to a per cent
+RIGHT = 0.005  # a formula that is off by less is right: in two digits it would be off by 0 %
 
 
 def heights_table(speeds, heights, bump, lost):
@@ -114,7 +116,7 @@ def course(v, ratios):
     """
     v, ratios = np.asarray(v), np.asarray(ratios)
     worst = int(np.argmax(ratios))
-    if ratios[worst] < 1.01:
+    if ratios[worst] < MATTERS:
         return (
             f"For this robot the end of the way at {DISTANCE:g} m does not matter: its dampers see "
             "to it that the worst comes on the way, and the curve is the same to a per cent at "
@@ -210,7 +212,7 @@ def weight(zeta, tops):
 
 
 def _off(ratio):
-    if abs(ratio - 1) < 0.005:
+    if abs(ratio - 1) < RIGHT:
         return "right"
     return f"{percent(abs(ratio - 1), 2)} too {'high' if ratio > 1 else 'low'}"
 

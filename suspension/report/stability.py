@@ -4,6 +4,7 @@ import numpy as np
 
 from suspension.report.rows import stability_rows, table
 from suspension.report.words import SPACE, Caption, count, join
+from suspension.schemes import TOLERANCE
 
 __all__ = ["diagram_caption", "diagram_link", "dt_list", "stability_table"]
 
@@ -75,10 +76,13 @@ def _places(scheme, eigenvalues, dts, name):
 
 
 def _place(scheme, eigenvalues, dt):
-    """Where the points of a step lie, and how many there: inside, on the border, outside."""
+    """Where the points of a step lie, and how many there: inside, on the border, outside.
+
+    The border is as wide as where `Scheme.is_stable` leaves room for roundoff.
+    """
     growth = np.abs(scheme.stability_function(np.asarray(eigenvalues) * dt))
-    inside = int((growth < 1 - 1e-12).sum())
-    outside = int((growth > 1 + 1e-12).sum())
+    inside = int((growth < 1 - TOLERANCE).sum())
+    outside = int((growth > 1 + TOLERANCE).sum())
     border = len(growth) - inside - outside
     places = (("inside", inside), ("on its border", border), ("outside", outside))
     return tuple((where, n) for where, n in places if n)

@@ -59,6 +59,7 @@ from suspension.figures import (
     plot_window,
 )
 from suspension.figures.layout import narrow
+from suspension.figures.style import FIELDS
 from suspension.flight import fly
 from suspension.road import GaussianBump
 from suspension.robot import Robot
@@ -687,3 +688,19 @@ def test_a_vehicle_has_a_row_in_two_colours_with_its_critical_speed_on_it():
     assert car[0].get_color() != car[1].get_color()
     assert [text.get_text() for text in ax.get_yticklabels()] == list(RIDES_OVER)
     assert [text.get_text() for text in ax.texts] == ["40"]
+
+
+def test_the_page_has_a_dark_tone_of_each_field():
+    style = (ROOT / "book/style/suspension.css").read_text(encoding="utf-8")
+    dark = re.search(r'html\[data-theme="dark"\] \{(.*?)\}', style, re.DOTALL)[1]
+    tones = dict(re.findall(r"--figure-([0-9a-f]{6}): (#[0-9a-f]{6});", dark))
+    for colour in FIELDS.values():
+        assert tones[colour[1:]] not in ("", colour), colour
+    assert len({tones[colour[1:]] for colour in FIELDS.values()}) == len(FIELDS)
+
+
+def test_no_figure_types_the_colour_of_a_field_anew():
+    for module in (ROOT / "suspension/figures").glob("*.py"):
+        text = module.read_text(encoding="utf-8")
+        typed = [colour for colour in FIELDS.values() if colour in text.lower()]
+        assert module.name == "style.py" or not typed, (module.name, typed)

@@ -141,6 +141,16 @@ def test_without_enough_damping_the_lag_wins():
     assert "the lag wins" in text and not faults(text)
 
 
+@pytest.mark.parametrize(("ratio", "dies"), [(1e-10, False), (1e-8, True)])
+def test_a_decay_like_roundoff_is_none(ratio, dies):
+    c = ratio * np.sqrt(2 * 793 * ROBOTS["undamped"].m)  # ratio: of the heave; the pitch has more
+    robot = Robot(793, 793, c1=c, c2=c)
+    assert ("*lightly* damped" in part.modes(robot)) == dies
+    assert ("hardly dies away" in part.coarse(robot, CRANK_NICOLSON, 0.2)) == dies
+    run, theta = released(robot, 0.001)
+    assert ("nothing dies away" in part.phase_error(robot, run, theta)) != dies
+
+
 def test_one_instant_is_told_from_the_whole_run():
     """At 808 N/m the error at 2 s is nearly zero, and falls by a factor of 2.6 only."""
     runs, theta = zip(*(released(Robot(808, 808), dt) for dt in (0.001, 0.0005)))

@@ -183,6 +183,8 @@ def test_what_dampers_twice_as_strong_do_is_told_of_the_robot_itself():
             "from 0.380 to 0.436 m/s (by up to 10 %) and above 0.720 m/s (up to 2.0 times as far)",
         ),
         ([(0.1, 0.5, 1.2)], "below 0.500 m/s (by up to 20 %)"),
+        ([(0.1, 0.5, 1.49)], "below 0.500 m/s (by up to 49 %)"),
+        ([(0.1, 0.5, 1.51)], "below 0.500 m/s (up to 1.5 times as far)"),
         (
             [(0.381, 0.407, 1.2), (0.410, 0.436, 1.1)],
             "from 0.381 to 0.436 m/s (by up to 20 %)",

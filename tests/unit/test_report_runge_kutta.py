@@ -89,6 +89,14 @@ def test_at_rest_where_there_is_no_bump():
     assert "roundoff" in part.at_rest(robot, BUMP, (np.full(4, 1e-11), 7.1, 7.1))
 
 
+@pytest.mark.parametrize(("apart", "half"), [(0.9e-6, True), (1.1e-6, False)])
+def test_forces_at_rest_are_halves_of_the_weight_within_a_millionth(apart, half):
+    robot = Robot(793, 793)
+    N = robot.m * robot.g / 2 * (1 + apart * np.array([1, -1]))
+    text = part.at_rest(robot, BUMP, (np.zeros(4), *N))
+    assert ("half the weight each" in text) == half != ("together the weight" in text)
+
+
 @each_robot
 def test_the_runs_do_what_stability_predicts(robot):
     text = agreement(robot)

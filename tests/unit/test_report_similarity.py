@@ -110,7 +110,15 @@ def test_a_closed_window_is_called_closed():
 
 
 @pytest.mark.parametrize(
-    "value, words", [(0.066, "right"), (0.1, "52 % too high"), (0.041, "38 % too low")]
+    "value, words",
+    [
+        (0.066, "right"),
+        (1.004 * 0.066, "right"),
+        (1.006 * 0.066, "0.60 % too high"),
+        (0.994 * 0.066, "0.60 % too low"),
+        (0.1, "52 % too high"),
+        (0.041, "38 % too low"),
+    ],
 )
 def test_a_formula_is_told_by_how_much_it_is_off(value, words):
     assert f"the lines are {words}." in plain(part.window(0.03, 2.8, value, 0.066))
@@ -150,7 +158,8 @@ def test_damping_times_height_is_called_constant_only_where_it_is(tops, words):
 
 def test_the_end_of_the_way_is_told_only_where_it_matters():
     v = [1.0, 5.0, 20.0]
-    assert "does not matter" in part.course(v, [1, 1.001, 1])
+    assert "does not matter" in part.course(v, [1, 1.009, 1])
+    assert "matters most at 5.00" in part.course(v, [1, 1.011, 1])
     text = plain(part.course(v, [1, 1.001, 1.5]))
     assert "most at 20.0 m/s" in text and "1.5 times lower" in text
     sound(text, part.course(v, [1, 1, 1]))

@@ -59,6 +59,22 @@ def test_the_caption_says_where_the_points_lie():
     )
 
 
+@pytest.mark.parametrize(
+    ("scheme", "size", "place"),
+    [
+        (RK4, 0.015, "on its border"),
+        (RK4, 0.03, "inside"),
+        (EULER, 1e-6, "on its border"),
+        (EULER, 3e-6, "outside"),
+    ],
+)
+def test_the_border_is_as_wide_as_roundoff(scheme, size, place):
+    """On the imaginary axis |R| is 1 - z^6/144 for RK4 and 1 + z^2/2 for Euler's method."""
+    caption = part.diagram_caption("7(i)", scheme, size * np.array([1j, -1j]), [1])
+    assert f"all two points lambda times dt lie {place}." in caption.alt
+    assert scheme.is_stable([1j * size], 1) == (place != "outside")
+
+
 def test_what_is_shaded_follows_from_the_scheme():
     z = Robot(793, 793).eigenvalues
     half = part.diagram_caption("4(i)", CRANK_NICOLSON, z, STEPS)

@@ -79,6 +79,12 @@ def test_orders_that_are_not_the_promised_ones_are_told():
     assert "for RK4 are not yet the promised ones" in plain(late)
 
 
+@pytest.mark.parametrize(("off", "late"), [(0.24, False), (0.26, True), (-0.24, False)])
+def test_an_order_is_the_promised_one_within_a_quarter(off, late):
+    text = part.observed_orders(slopes({"Crank-Nicolson": 2, "RK4": 4 - off}), PROMISED)
+    assert ("not yet the promised ones" in text) == late
+
+
 def test_without_a_loss_there_is_no_time_of_it():
     worst = slopes({"Crank-Nicolson": 2, "RK4": 4}, losses=False)
     assert list(part.panels(worst)) == list(part.READINGS[:2])
