@@ -14,6 +14,7 @@ What goes beyond:
 - `contact`: all that answers "does a wheel leave the ground?", in one place
 - `profiles`: the same over a road in pieces, one that was measured or drawn
 - `similarity`: one chart for every speed, bump and robot, and its limits by hand
+- `vehicles`: published vehicles on it
 - `flight`: what happens after it has
 - `tyre`: wheels that weigh something, and how light they must be
 - `energy`: what the road puts in, and where it goes

@@ -3,7 +3,7 @@
 MyST-NB would run one notebook after another, every time, or take outputs from a cache that does not
 notice a change of the package. Here each notebook runs on a core of its own before the pages are
 read, and its outputs are kept under a number that changes with its code, the package, the data, the
-installed versions and Python. MyST-NB then reads the notebooks as if they had been stored so.
+required versions and Python. MyST-NB then reads the notebooks as if they had been stored so.
 """
 
 import hashlib
@@ -22,6 +22,7 @@ from traitlets.config import Config
 
 logger = logging.getLogger(__name__)
 USED = ("suspension/**/*", "data/*", "requirements.txt")
+FOR_BROWSERS = {".js", ".css"}  # handed to them as they are: no output holds any of it
 ENCRYPTED = Config(KernelManager={"transport_encryption": "auto"})  # or every kernel warns
 
 
@@ -40,7 +41,9 @@ def fingerprint(root):
     digest = hashlib.sha256(sys.version.encode())
     for pattern in USED:
         for path in sorted(root.glob(pattern)):
-            if path.is_file() and "__pycache__" not in path.parts:
+            if path.suffix in FOR_BROWSERS or "__pycache__" in path.parts:
+                continue
+            if path.is_file():
                 digest.update(f"{path.relative_to(root)}\0".encode() + path.read_bytes())
     return digest.hexdigest()
 
@@ -50,11 +53,17 @@ def code_cells(notebook):
     return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
-def place(path, common, build):
+def place(path, notebook, common, build):
     """Where the outputs of a notebook are kept, by a number that changes with its code."""
-    code = "\0".join(cell.source for cell in code_cells(nbformat.read(path, as_version=4)))
+    code = "\0".join(cell.source for cell in code_cells(notebook))
     number = hashlib.sha256(f"{common}\0{code}".encode()).hexdigest()
     return build / ".notebooks" / f"{path.stem}-{number[:16]}.json"
+
+
+def keep(outputs, file):
+    """Store the outputs of a notebook's cells."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps({"outputs": outputs}), encoding="utf-8")
 
 
 def run_all(app, env, pages):
@@ -68,7 +77,8 @@ def run_all(app, env, pages):
     for page in sorted(env.found_docs):
         path = Path(env.doc2path(page))
         if path.suffix == ".ipynb":
-            env.executed[page] = place(path, common, build)
+            notebook = nbformat.read(path, as_version=4)
+            env.executed[page] = place(path, notebook, common, build)
             if not env.executed[page].exists():
                 missing.append((path, env.executed[page], app.config.nb_execution_timeout))
     folder = build / ".notebooks"
@@ -81,7 +91,7 @@ def run_all(app, env, pages):
 
 
 def run(path, result, timeout):
-    """Run a notebook and store the outputs of its cells and the state of its widgets."""
+    """Run a notebook and store the outputs of its cells."""
     notebook = nbformat.read(path, as_version=4)
     folder = {"metadata": {"path": str(path.parent)}}
     client = NotebookClient(
@@ -91,9 +101,7 @@ def run(path, result, timeout):
         client.execute()
     except CellExecutionError as error:
         raise ExtensionError(f"{path}: {error}") from error
-    outputs = [cell.outputs for cell in code_cells(notebook)]
-    state = {"outputs": outputs, "widgets": notebook.metadata.get("widgets")}
-    result.write_text(json.dumps(state), encoding="utf-8")
+    keep([cell.outputs for cell in code_cells(notebook)], result)
 
 
 def put_outputs(app, page, source):
@@ -105,8 +113,6 @@ def put_outputs(app, page, source):
     state = nbformat.from_dict(json.loads(path.read_text(encoding="utf-8")))
     for cell, outputs in zip(code_cells(notebook), state.outputs):
         cell.outputs = outputs
-    if state.widgets:
-        notebook.metadata.widgets = state.widgets
     source[0] = nbformat.writes(notebook)
 
 

@@ -14,6 +14,7 @@ from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.similarity import follow, groups, skim, throw
 from suspension.springs import load_vehicles
+from suspension.vehicles import as_bump
 
 __all__ = [
     "LIMITS",
@@ -147,7 +148,7 @@ def vehicles_of(robot, bump, v):
         inertia = float(f"{m * L**2:.4g}")
         own = replace(robot, m=m, Izz=inertia, L1=L, L2=L, **springs, **dampers)
         # A Gaussian of the same height and area, as in Part IV.
-        sigma = float(f"{2 / 3 * car.length / np.sqrt(2 * np.pi):.3g}")
+        sigma = float(f"{as_bump(car.height, car.length).sigma:.3g}")
         found.append(
             _vehicle(
                 f"{car.vehicle}, {car.obstacle}",

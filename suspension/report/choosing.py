@@ -33,6 +33,7 @@ __all__ = [
     "farthest",
     "game_note",
     "measured_length",
+    "paths",
     "price_map",
     "rest_note",
     "robust_table",
@@ -136,6 +137,34 @@ def price_map(kept, asked):
         "Two maps over stiffness and damping on logarithmic axes. Acceleration is least where "
         "springs are soft and dampers weak, compression where springs are stiff and dampers "
         f"strong. {_parted(kept)}",
+    )
+
+
+def paths(shown, asked, lost):
+    """Caption of suspensions on the chart.
+
+    Parameters
+    ----------
+    shown : sequence of str
+        Names of the suspensions, the given one first.
+    asked : sequence of float
+        m/s.
+    lost : sequence of ndarray of bool, shape (n, speeds)
+        Whether each of them loses contact at each speed.
+    """
+    filled = np.concatenate(lost)
+    circles = "none of which loses contact"
+    if filled.any():
+        circles = "all of which lose contact" if filled.all() else "filled where contact is lost"
+    ways = ""
+    if len(shown) > 1:
+        ways = " A softer suspension's circles lie further down and to the right on them."
+    return Caption(
+        f"The choice on the chart. Grey: the {count(len(asked), 'speed')}, each a line along which "
+        "a softer spring slides down to the right. Circles: the suspensions at these speeds, "
+        f"{circles}; curves: their highest bumps. Here {join(list(shown))}.",
+        "Highest bump against speed on logarithmic axes, a curve for each suspension, and grey "
+        f"lines of slope minus two, parallel to the line named follow.{ways}",
     )
 
 

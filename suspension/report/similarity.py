@@ -1,17 +1,13 @@
 """Sentences, tables and captions of the chart: one curve for every speed, bump and robot."""
 
-from typing import NamedTuple
-
 import numpy as np
 
-from suspension.contact import Regimes
 from suspension.problem import DISTANCE
 from suspension.report.regimes import WIDE
 from suspension.report.rows import table
 from suspension.report.words import SPACE, Caption, count, fixed, join, number, percent, ranges
 
 __all__ = [
-    "Ride",
     "chart_figure",
     "comb_figure",
     "course",
@@ -33,36 +29,6 @@ __all__ = [
 NEARLY_CONSTANT = 1.5  # the largest over the least
 MATTERS = 1.01  # a curve that is higher by less than this factor is the same to a per cent
 RIGHT = 0.005  # a formula that is off by less is right: in two digits it would be off by 0 %
-
-
-class Ride(NamedTuple):
-    """A vehicle on an obstacle, over a range of speeds.
-
-    vehicle, obstacle, source : str
-        Names, and a link to where its numbers are from.
-    frequency, zeta, sag : float
-        Of the body on its spring: Hz, 1 and m.
-    height : float
-        Of the obstacle, m.
-    contact : Regimes
-        Where contact is kept and lost, by the vehicle's own damping, km/h.
-    rises : bool
-        Whether its highest bump grows with the speed anywhere in the range.
-    heavy : float
-        Speed above which a rigid wheel's own mass lifts it off the obstacle, km/h; nan if its mass
-        is not known.
-    """
-
-    vehicle: str
-    obstacle: str
-    source: str
-    frequency: float
-    zeta: float
-    sag: float
-    height: float
-    contact: Regimes
-    rises: bool
-    heavy: float
 
 
 def heights_table(speeds, heights, bump, lost):
@@ -314,22 +280,22 @@ def window_figure(zeta, eta, closes):
     )
 
 
-def vehicle_table(rides):
+def vehicle_table(passages):
     """Vehicles, what their suspension is, when they lose contact, and where that is from."""
     return table(
         [
             {
-                "vehicle": ride.vehicle,
-                "frequency (Hz)": fixed(ride.frequency, 1),
-                r"$\zeta$": fixed(ride.zeta, 2),
-                "sag (mm)": number(1000 * ride.sag, 2),
-                "obstacle": f"{ride.obstacle}, {1000 * ride.height:g}{SPACE}mm",
-                r"$\eta$": number(ride.height / ride.sag, 2),
-                "loses contact (km/h)": _lost(ride.contact),
-                "wheel too heavy above (km/h)": _speed(ride.heavy),
-                "source": ride.source,
+                "vehicle": passage.vehicle,
+                "frequency (Hz)": fixed(passage.frequency, 1),
+                r"$\zeta$": fixed(passage.zeta, 2),
+                "sag (mm)": number(1000 * passage.sag, 2),
+                "obstacle": f"{passage.obstacle}, {1000 * passage.height:g}{SPACE}mm",
+                r"$\eta$": number(passage.height / passage.sag, 2),
+                "loses contact (km/h)": _lost(passage.contact),
+                "wheel too heavy above (km/h)": _speed(passage.heavy),
+                "source": f"[{passage.cited_as}](../book/references.md#{passage.source})",
             }
-            for ride in rides
+            for passage in passages
         ]
     )
 
@@ -354,9 +320,9 @@ def _speed(kmh):
     return "–" if np.isnan(kmh) else number(kmh, 2)
 
 
-def falls(rides):
+def falls(passages):
     """Whether going faster is safer for any of the vehicles."""
-    rising = [f"the {ride.vehicle}" for ride in rides if ride.rises]
+    rising = [f"the {passage.vehicle}" for passage in passages if passage.rises]
     if not rising:
         return (
             "For each of these vehicles the highest bump falls with the speed: its dampers are too "
@@ -365,30 +331,30 @@ def falls(rides):
     return (
         f"Only for {join(rising)} is there a range in which faster is safer. The dampers of the "
         "others are too strong for a rising branch: slower is safer."
-        if len(rising) < len(rides)
+        if len(rising) < len(passages)
         else f"For {join(rising)} there is a range in which faster is safer."
     )
 
 
-def heavy_first(rides):
+def heavy_first(passages):
     """For which vehicles the mass of the wheel decides before the chart does."""
     told = []
-    for ride in rides:
-        lost = ride.contact.spans(lost=True)
+    for passage in passages:
+        lost = passage.contact.spans(lost=True)
         first = lost[0, 0] if len(lost) else np.inf
-        if ride.heavy < min(first, ride.contact.edges[-1]):
-            told.append(f"the {ride.vehicle}")
+        if passage.heavy < min(first, passage.contact.edges[-1]):
+            told.append(f"the {passage.vehicle}")
     if not told:
         return "For none of them does the mass of the wheel decide first."
     return f"For {join(told)} the mass of the wheel decides first."
 
 
-def vehicles_figure(rides):
+def vehicles_figure(passages):
     """Caption of the vehicles, a row for each."""
-    lost = [ride.vehicle for ride in rides if ride.contact.lost.any()]
+    lost = [passage.vehicle for passage in passages if passage.contact.lost.any()]
     words = f"lost for: {join(lost)}" if lost else "kept by all of them"
     return Caption(
-        f"{_capital(count(len(rides), 'vehicle'))}, each over one obstacle, by the chart of a "
+        f"{_capital(count(len(passages), 'vehicle'))}, each over one obstacle, by the chart of a "
         "single wheel ($j = 1$) with its own damping. Diamonds: critical speeds. Crosses: above "
         "these a rigid wheel would be lifted by its own mass.",
         "A row for each vehicle, a bar over the speeds at which it meets its obstacle, in two "

@@ -2,13 +2,18 @@
 
 import re
 from functools import cache
+from html import unescape
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from helpers import PAGES, parse
+from execution import FOR_BROWSERS
+from helpers import PAGES, ROOT, parse
+
+from suspension.explorer.bundle import without_comments
 
 # Of links that set a picture or an instrument, and lead to no anchor.
 PREFIXES = ("explore:", "workshop:", "chain:", "own:", "game:")
+INSTRUMENTS = ROOT / "suspension" / "explorer" / "page"
 each_page = pytest.mark.parametrize("page", [*PAGES, "search", "genindex"])
 
 
@@ -37,6 +42,17 @@ def test_page_is_built_and_has_one_title(book, page):
     assert len(soup.find_all("h1")) == 1
     assert soup.html["lang"] == "en"
     assert soup.title.get_text(strip=True)
+
+
+def test_no_page_holds_a_script_or_a_style_of_an_instrument(book):
+    """They are files beside the pages: a change of them has no notebook executed again."""
+    sources = [path for path in INSTRUMENTS.iterdir() if path.suffix in FOR_BROWSERS]
+    texts = [without_comments(path.read_text(encoding="utf-8")) for path in sources]
+    longest = {max(map(str.strip, text.splitlines()), key=len) for text in texts}
+    assert len(longest) > 50 and min(map(len, longest)) > 30
+    for page in PAGES:
+        html = (book / f"{page}.html").read_text(encoding="utf-8")
+        assert not [line for line in longest if line in unescape(html)], page
 
 
 @each_page

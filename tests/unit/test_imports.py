@@ -11,8 +11,9 @@ PACKAGE = ROOT / "suspension"
 # The floors of the core, from the ground up. What stands on one floor reaches lower ones only.
 CORE = (
     "_checks robot road problem schemes forces simulation _formats _readings springs course exact "
-    "least_force critical branches contact profiles similarity flight spring_law motion extremes "
-    "sweep small_angle frequency rides choice travel accuracy uncertainty measured tyre energy"
+    "least_force critical branches contact profiles similarity vehicles flight spring_law motion "
+    "extremes sweep small_angle frequency rides choice travel accuracy uncertainty measured tyre "
+    "energy"
 ).split()
 ROOMS = ("figures", "report", "explorer", "practice")  # may stand on all of the core
 FACADES = {"animation": "figures"}  # a name of the contract, kept in a room

@@ -149,6 +149,23 @@ def test_captions_of_maps_name_a_line_only_where_there_is_one(kept, words, alt):
 
 
 @pytest.mark.parametrize(
+    ("lost", "words"),
+    [
+        ([[0, 1, 1, 0], [0, 0, 0, 0]], "at these speeds, filled where contact is lost; curves"),
+        ([[0, 0, 0, 0]], "at these speeds, none of which loses contact; curves"),
+        ([[1, 1, 1, 1]], "at these speeds, all of which lose contact; curves"),
+    ],
+)
+def test_the_caption_of_the_paths_says_what_circles_are(lost, words):
+    names = ["as it is", "at every speed"][: len(lost)]
+    caption = part.paths(names, ASKED, [np.array(one, bool) for one in lost])
+    assert words in caption.text and f"Here {' and '.join(names)}." in caption.text
+    assert ("softer suspension" in caption.alt) == (len(lost) == 2)
+    assert "the four speeds" in caption.text
+    assert not faults(caption.text) and not faults(caption.alt)
+
+
+@pytest.mark.parametrize(
     ("better", "words"),
     [
         ([], "**Not one.** No suspension of the map is better than the present one, 793 N/m and"),

@@ -11,16 +11,17 @@ from suspension.problem import SPEEDS
 from suspension.report import similarity as part
 from suspension.report.regimes import WIDE
 from suspension.report.rows import table
-from suspension.report.similarity import Ride
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.similarity import groups
+from suspension.vehicles import Passage
 
 BUMP = GaussianBump()
-RIDE = Ride(
+CAR = Passage(
     vehicle="car",
     obstacle="hump",
-    source="[Somebody](../book/references.md#x)",
+    cited_as="Somebody",
+    source="x",
     frequency=1.26,
     zeta=0.377,
     sag=0.155,
@@ -29,7 +30,7 @@ RIDE = Ride(
     rises=False,
     heavy=np.nan,
 )
-LOSING = RIDE._replace(contact=Regimes([5, 47, 80], [False, True], "km/h"))
+LOSING = CAR._replace(contact=Regimes([5, 47, 80], [False, True], "km/h"))
 CASES = {  # edges, lost, and what the sentences must say
     "slow or in the window": ([0.1, 0.4, 7, 20, 60], [0, 1, 0, 1], "two ways"),
     "slow or fast": ([0.1, 0.4, 7, 60], [0, 1, 0], "above 7.00 m/s"),
@@ -176,12 +177,12 @@ def test_the_end_of_the_way_is_told_only_where_it_matters():
     ],
 )
 def test_a_vehicle_that_loses_contact_is_told_with_its_speeds(edges, lost, words):
-    ride = RIDE._replace(contact=Regimes(edges, lost, "km/h"))
-    text = part.vehicle_table([ride, ride._replace(heavy=44.2)])
+    passage = CAR._replace(contact=Regimes(edges, lost, "km/h"))
+    text = part.vehicle_table([passage, passage._replace(heavy=44.2)])
     assert f"| {words} | – | [Somebody]" in text and f"| {words} | 44 |" in text
-    alt = part.vehicles_figure([ride]).alt
+    alt = part.vehicles_figure([passage]).alt
     assert ("lost for: car" in alt) == any(lost) and ("kept by all" in alt) != any(lost)
-    sound(text, *part.vehicles_figure([ride]))
+    sound(text, *part.vehicles_figure([passage]))
 
 
 @pytest.mark.parametrize(
@@ -193,17 +194,19 @@ def test_a_vehicle_that_loses_contact_is_told_with_its_speeds(edges, lost, words
     ],
 )
 def test_faster_is_safer_only_for_a_vehicle_whose_highest_bump_rises(rises, words):
-    text = part.falls([RIDE._replace(rises=bool(one)) for one in rises])
+    text = part.falls([CAR._replace(rises=bool(one)) for one in rises])
     assert text.startswith(words) and ("slower is safer" in text) == (not all(rises))
     sound(text)
 
 
 def test_a_heavy_wheel_is_told_where_it_decides_and_where_it_is_known():
-    heavy = RIDE._replace(vehicle="bus", heavy=32.0)
-    assert "For the bus the mass" in part.heavy_first([RIDE, heavy])
-    assert "For the bus the mass" in part.heavy_first([LOSING, heavy._replace(contact=LOSING[7])])
-    for ride in (RIDE, LOSING._replace(heavy=50.0), RIDE._replace(heavy=90.0)):
-        assert "none of them" in part.heavy_first([ride])
+    heavy = CAR._replace(vehicle="bus", heavy=32.0)
+    assert "For the bus the mass" in part.heavy_first([CAR, heavy])
+    assert "For the bus the mass" in part.heavy_first(
+        [LOSING, heavy._replace(contact=LOSING.contact)]
+    )
+    for passage in (CAR, LOSING._replace(heavy=50.0), CAR._replace(heavy=90.0)):
+        assert "none of them" in part.heavy_first([passage])
 
 
 def test_the_groups_are_those_of_the_robot():
