@@ -47,7 +47,13 @@ __all__ = [
 
 
 def is_lost(margin):
-    """The verdict: whether a margin in N, a number or an array, means that contact is lost."""
+    """The verdict: whether a margin in N, a number or an array, means that contact is lost.
+
+    Raises
+    ------
+    ValueError
+        If a margin is no finite number: it would turn into "contact kept".
+    """
     return _checks.array("margin", margin) <= 0
 
 
@@ -202,6 +208,11 @@ def regimes_between(margin_at, edges, unit="m/s"):
     -------
     Regimes
 
+    Raises
+    ------
+    ValueError
+        If the edges are not > 0 and in order, or fewer than two, or a margin is no finite number.
+
     Examples
     --------
     >>> regimes_between(lambda k: 300 - k, [200, 250, 300, 1000], unit="N/m")
@@ -221,7 +232,7 @@ def regimes_between(margin_at, edges, unit="m/s"):
 def exact_loss(robot, bump, v, tfinal=None, *, distance=None):
     """The very moment at which a wheel first leaves the ground on the way over the bump.
 
-    Parameters are those of `margin`, and so is the start.
+    Parameters and errors are those of `margin`, and so is the start.
 
     Returns
     -------
