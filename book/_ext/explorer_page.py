@@ -10,6 +10,7 @@ page they point to; links like ``#chain:`` and ``#workshop:a=..`` lead to an ins
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 from docutils import nodes
@@ -20,62 +21,40 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 
 from suspension.explorer import (
-    chain_script,
-    chain_style,
-    game_script,
-    game_style,
-    own_script,
-    own_style,
+    Chain,
+    Game,
+    Own,
+    Workshop,
     page_script,
     page_style,
     prediction_script,
-    workshop_script,
-    workshop_style,
 )
+from suspension.explorer.bundle import script, style
+from suspension.explorer.instrument import LABORATORY
 
 # What a link begins with that sets a picture, or an instrument of the laboratory.
 PREFIXES = ("explore:", "workshop:", "chain:", "own:", "game:")
 WIDGET = "application/vnd.jupyter.widget-view+json"
 EXPLORER, PREDICTION = "suspension-explorer-box", "suspension-prediction"
-LABORATORY, WORKSHOP = "suspension-laboratory", "suspension-laboratory se-workshop"
-CHAIN = "suspension-laboratory se-chain"
-GAME = "suspension-laboratory se-game"
-OWN = "suspension-laboratory se-own"
+INSTRUMENTS = {"workshop": Workshop, "chain": Chain, "game": Game, "own": Own}  # by their files
 BOX = re.compile(f"{EXPLORER}|{PREDICTION}|{LABORATORY}")
-SCRIPTS = {
-    EXPLORER: "explorer.js",
-    PREDICTION: "prediction.js",
-    WORKSHOP: "workshop.js",
-    CHAIN: "chain.js",
-    GAME: "game.js",
-    OWN: "own.js",
+SCRIPTS = {EXPLORER: "explorer.js", PREDICTION: "prediction.js"} | {
+    one.kind: f"{name}.js" for name, one in INSTRUMENTS.items()
 }
 FOR_NOTEBOOKS = re.compile(
     r'(?<=<div class="se-controls") hidden|<p class="se-run">.*?</p><style>.*?</style>'
 )
 STILL = re.compile(r'<img class="suspension-explorer-still"[^>]*>')
 WIDE = "se-page se-wide"  # the classes of a box that asks for the window's whole width
-STYLES = {
-    WIDE: "wide.css",
-    WORKSHOP: "workshop.css",
-    CHAIN: "chain.css",
-    OWN: "own.css",
-    GAME: "game.css",
-}
+STYLES = {WIDE: "wide.css"} | {one.kind: f"{name}.css" for name, one in INSTRUMENTS.items()}
 WIDE_STYLE = Path(__file__).parents[1] / "style" / "wide.css"
 FILES = {
     "explorer.js": page_script,
     "prediction.js": prediction_script,
-    "workshop.js": workshop_script,
-    "chain.js": chain_script,
-    "game.js": game_script,
     "explorer.css": page_style,
-    "workshop.css": workshop_style,
-    "chain.css": chain_style,
-    "game.css": game_style,
-    "own.js": own_script,
-    "own.css": own_style,
     "wide.css": lambda: WIDE_STYLE.read_text(encoding="utf-8"),
+    **{f"{name}.js": partial(script, f"{name}_page") for name in INSTRUMENTS},
+    **{f"{name}.css": partial(style, name) for name in INSTRUMENTS},
 }
 
 
@@ -97,12 +76,12 @@ def add_files(app, page, template, context, doctree):
     html = "".join(node.astext() for node in doctree.findall(nodes.raw))
     if BOX.search(html):
         app.add_css_file("explorer.css")
-    for mark, script in SCRIPTS.items():
+    for mark, name in SCRIPTS.items():
         if mark in html:
-            app.add_js_file(script, loading_method="defer")
-    for mark, style in STYLES.items():
+            app.add_js_file(name, loading_method="defer")
+    for mark, name in STYLES.items():
         if mark in html:
-            app.add_css_file(style)
+            app.add_css_file(name)
 
 
 def keep_pages(app, page, source):

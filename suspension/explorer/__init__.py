@@ -8,7 +8,6 @@ road work in it, and what it shows is what `suspension.simulation.simulate` comp
 import base64
 import json
 from dataclasses import fields
-from pathlib import Path
 
 import anywidget
 import ipywidgets
@@ -17,13 +16,13 @@ import traitlets
 from IPython.display import display
 
 from suspension import _checks
-from suspension.explorer.bundle import bundle, without_comments
-from suspension.explorer.chain import Chain, chain_script, chain_style
+from suspension.explorer.bundle import PAGE, bundle, script, style
+from suspension.explorer.chain import Chain
 from suspension.explorer.chart import chart_facts, check
 from suspension.explorer.controls import CONTROLS, native
 from suspension.explorer.family import Family, Range, before_the_bump
-from suspension.explorer.game import Game, game_script, game_style
-from suspension.explorer.own import Own, own_script, own_style
+from suspension.explorer.game import Game
+from suspension.explorer.own import Own
 from suspension.explorer.predict import Prediction
 from suspension.explorer.settings import (
     CLOSE,
@@ -40,7 +39,7 @@ from suspension.explorer.settings import (
 from suspension.explorer.sliders import row
 from suspension.explorer.still import RUN_NOTEBOOK, critical, draw, knows_all_speeds, picture, still
 from suspension.explorer.tables import scheme_facts, shape_of
-from suspension.explorer.workshop import Workshop, workshop_script, workshop_style
+from suspension.explorer.workshop import Workshop
 from suspension.flight import fly
 from suspension.problem import SPEEDS
 from suspension.road import FlatRoad
@@ -58,21 +57,12 @@ __all__ = [
     "Own",
     "Prediction",
     "Workshop",
-    "chain_script",
-    "chain_style",
     "explore",
-    "game_script",
-    "game_style",
-    "own_script",
-    "own_style",
     "page_script",
     "page_style",
     "prediction_script",
-    "workshop_script",
-    "workshop_style",
 ]
 
-PAGE = Path(__file__).parent / "page"
 NUMBERS = tuple(control.trait for control in CONTROLS)
 # What an explorer shows and has sliders for: a whole one, a compact one, the chart, the race.
 PANELS = {
@@ -117,7 +107,7 @@ class Explorer(anywidget.AnyWidget):
     """
 
     _esm = bundle(PAGE, "widget")
-    _css = without_comments((PAGE / "explorer.css").read_text(encoding="utf-8"))
+    _css = style("explorer")
 
     v = traitlets.Float(1.0).tag(sync=True)
     dt = traitlets.Float(0.001).tag(sync=True)
@@ -346,12 +336,12 @@ class ExplorerBox(ipywidgets.VBox):
 
 def page_script():
     """The script, a classic one, that brings every explorer of a page to life."""
-    return f"(() => {{\n{bundle(PAGE, 'page')}}})();\n"
+    return script("page")
 
 
 def prediction_script():
     """The script, a classic one, that brings every prediction of a page to life."""
-    return f"(() => {{\n{bundle(PAGE, 'predict_page')}}})();\n"
+    return script("predict_page")
 
 
 def page_style():

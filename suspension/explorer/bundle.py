@@ -7,8 +7,11 @@ their own stay behind: a sixth of what a reader would have to load.
 """
 
 import re
+from pathlib import Path
 
-__all__ = ["bundle", "without_comments"]
+__all__ = ["PAGE", "bundle", "script", "style", "without_comments"]
+
+PAGE = Path(__file__).parent / "page"  # the modules and style sheets of all live pictures
 
 NAME = r"[A-Za-z_]\w*"
 IMPORT = re.compile(
@@ -68,6 +71,17 @@ def bundle(folder, entry):
 
     add(entry)
     return "".join(parts)
+
+
+def script(entry):
+    """A module of `PAGE` as a classic script, which runs by itself and leaves no name behind."""
+    return f"(() => {{\n{bundle(PAGE, entry)}}})();\n"
+
+
+def style(*names):
+    """Style sheets of `PAGE`, one after another, without comments on lines of their own."""
+    sheets = ((PAGE / f"{name}.css").read_text(encoding="utf-8") for name in names)
+    return "".join(map(without_comments, sheets))
 
 
 def without_comments(text):

@@ -6,7 +6,6 @@ error was measured, and the stiffnesses at which the verdict of an asked speed f
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -17,9 +16,8 @@ from suspension import _checks, springs
 from suspension._readings import COLUMNS
 from suspension.branches import branches
 from suspension.contact import critical_stiffness, margin, regimes_between
-from suspension.explorer.bundle import bundle, without_comments
-from suspension.explorer.instrument import Instrument
-from suspension.explorer.predict import Prediction
+from suspension.explorer.bundle import PAGE, bundle, style
+from suspension.explorer.instrument import LABORATORY, Instrument
 from suspension.explorer.still import svg
 from suspension.figures.regression import plot_confidence_region, plot_fit
 from suspension.figures.speeds import plot_branches
@@ -28,9 +26,8 @@ from suspension.problem import DELTA_MAX
 from suspension.report.words import quantity
 from suspension.uncertainty import EXACT, TAIL, WIDEST
 
-__all__ = ["Chain", "chain_script", "chain_style"]
+__all__ = ["Chain"]
 
-PAGE = Path(__file__).parent / "page"
 LEVEL = 0.95
 MORE = 12  # so many readings can be added
 REACH = 3.0  # the table of critical speeds goes from k / REACH to k REACH
@@ -74,10 +71,10 @@ class Chain(Instrument):
     """
 
     _esm = bundle(PAGE, "chain_widget")
-    _css = Prediction._css + (PAGE / "chain.css").read_text(encoding="utf-8")
+    _css = style("explorer", "chain")
 
     readings = traitlets.List().tag(sync=True)
-    kind = "suspension-laboratory se-chain"
+    kind = f"{LABORATORY} se-chain"
     to = "drag its readings"
 
     def __init__(
@@ -156,16 +153,6 @@ class Chain(Instrument):
             speeds = [a["v"] for a in self.facts["asked"]]
             plot_branches(self.branches, fit.stiffness, band, speeds, axes[2])
         return svg(figure)
-
-
-def chain_script():
-    """The script, a classic one, that brings the readings of a page to life."""
-    return f"(() => {{\n{bundle(PAGE, 'chain_page')}}})();\n"
-
-
-def chain_style():
-    """The style that comes on top of the explorers'."""
-    return without_comments((PAGE / "chain.css").read_text(encoding="utf-8"))
 
 
 def _quantiles(most):

@@ -5,7 +5,6 @@ to beat comes from there. The first road is the bump, the others are unknown: bu
 it, drawn by lot until robot and road ask for something that can be done.
 """
 
-from pathlib import Path
 from typing import NamedTuple
 
 import matplotlib.pyplot as plt
@@ -15,9 +14,9 @@ import traitlets
 from suspension import _checks
 from suspension.choice import cheapest, demands, fitted_with
 from suspension.contact import is_lost
-from suspension.explorer.bundle import bundle, without_comments
+from suspension.explorer.bundle import PAGE, bundle, style
 from suspension.explorer.family import Family
-from suspension.explorer.instrument import Instrument
+from suspension.explorer.instrument import LABORATORY, Instrument
 from suspension.explorer.settings import REFERENCE
 from suspension.explorer.still import svg
 from suspension.explorer.tables import unit_bump
@@ -29,9 +28,8 @@ from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.simulation import simulate
 
-__all__ = ["Attempt", "Game", "Goal", "game_script", "game_style", "goal_on", "unknown_roads"]
+__all__ = ["Attempt", "Game", "Goal", "goal_on", "unknown_roads"]
 
-PAGE = Path(__file__).parent / "page"
 ROADS = 3  # unknown ones
 TRIES = 40  # shapes that are drawn for them, at most
 HEIGHTS = (0.3, 1.5)  # times the bump's, up or down
@@ -215,11 +213,9 @@ class Game(Instrument):
     """
 
     _esm = bundle(PAGE, "game_widget")
-    _css = "".join(
-        (PAGE / name).read_text(encoding="utf-8") for name in ("explorer.css", "game.css")
-    )
+    _css = style("explorer", "game")
 
-    kind = "suspension-laboratory se-game"
+    kind = f"{LABORATORY} se-game"
     to = "play it"
 
     level = traitlets.Int(0).tag(sync=True)
@@ -358,13 +354,3 @@ class Game(Instrument):
         ]
         with plt.style.context("suspension.figures.report"):
             return svg(plot_all_forces(runs))
-
-
-def game_script():
-    """The script, a classic one, that brings every game of a page to life."""
-    return f"(() => {{\n{bundle(PAGE, 'game_page')}}})();\n"
-
-
-def game_style():
-    """The style sheet of a game, besides that of all live pictures."""
-    return without_comments((PAGE / "game.css").read_text(encoding="utf-8"))

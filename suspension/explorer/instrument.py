@@ -8,7 +8,9 @@ from IPython.display import display
 
 from suspension.explorer.still import RUN_NOTEBOOK, picture, still_image
 
-__all__ = ["Instrument"]
+__all__ = ["LABORATORY", "Instrument"]
+
+LABORATORY = "suspension-laboratory"  # the class of every box of the laboratory in a page
 
 
 class Instrument(anywidget.AnyWidget):
@@ -24,8 +26,8 @@ class Instrument(anywidget.AnyWidget):
     alt = ""  # of the still picture
 
     def _draw(self):
-        """The still picture as SVG, or "" where nothing is to be seen without scripts."""
-        raise NotImplementedError
+        """The still picture as SVG; none where nothing is to be seen without scripts."""
+        return ""
 
     def _state(self):
         """What the page's script gets as JSON."""

@@ -6,7 +6,6 @@ same numbers. The page does linear algebra and sums power series, which are exac
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,10 +13,9 @@ import traitlets
 
 from suspension import _checks
 from suspension.contact import exact_loss
-from suspension.explorer.bundle import bundle, without_comments
-from suspension.explorer.instrument import Instrument
+from suspension.explorer.bundle import PAGE, bundle, style
+from suspension.explorer.instrument import LABORATORY, Instrument
 from suspension.explorer.own_facts import AHEAD, NUMBERS, facts_of, usual_way, within
-from suspension.explorer.predict import Prediction
 from suspension.explorer.still import svg
 from suspension.figures import plot_chart
 from suspension.forces import WHEEL
@@ -27,9 +25,8 @@ from suspension.road import GaussianBump, RoadProfile
 from suspension.robot import Robot
 from suspension.similarity import follow, groups, highest_bump, skim, throw
 
-__all__ = ["Own", "own_script", "own_style"]
+__all__ = ["Own"]
 
-PAGE = Path(__file__).parent / "page"
 NUS, ETAS = (0.1, 26.0), (0.1, 100.0)  # of the still picture
 MM = 1000
 
@@ -66,10 +63,10 @@ class Own(Instrument):
     """
 
     _esm = bundle(PAGE, "own_widget")
-    _css = Prediction._css + (PAGE / "own.css").read_text(encoding="utf-8")
+    _css = style("explorer", "own")
 
     state = traitlets.Dict().tag(sync=True)
-    kind = "suspension-laboratory se-own"
+    kind = f"{LABORATORY} se-own"
     to = "change its numbers and draw its road"
 
     def __init__(self, robot, bump, v=1.2):
@@ -192,13 +189,3 @@ class Own(Instrument):
             if robot != robot.twin:
                 ax.set(xlabel="speed $v$ (m/s)", ylabel="height of the bump (mm)")
         return svg(figure)
-
-
-def own_script():
-    """The script, a classic one, that brings your own robot and road to life in a page."""
-    return f"(() => {{\n{bundle(PAGE, 'own_page')}}})();\n"
-
-
-def own_style():
-    """The style that comes on top of the explorers'."""
-    return without_comments((PAGE / "own.css").read_text(encoding="utf-8"))

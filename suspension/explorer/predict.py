@@ -1,21 +1,18 @@
 """A prediction: the reader draws a curve on empty axes, and later lays the answer beside it."""
 
-from pathlib import Path
-
 import ipywidgets
 import matplotlib.pyplot as plt
 import numpy as np
 import traitlets
 
 from suspension import _checks
-from suspension.explorer.bundle import bundle
+from suspension.explorer.bundle import PAGE, bundle, style
 from suspension.explorer.instrument import Instrument
 from suspension.explorer.still import svg
 from suspension.figures.similarity import empty_axes
 
 __all__ = ["Prediction"]
 
-PAGE = Path(__file__).parent / "page"
 COLUMNS = 241
 NEAR = np.log10(1.5)  # so close to the exact curve that a line says what happens
 BEYOND = 1.0  # decades that are kept of a curve outside the axes
@@ -45,7 +42,7 @@ class Prediction(Instrument):
     """
 
     _esm = bundle(PAGE, "predict_widget")
-    _css = (PAGE / "explorer.css").read_text(encoding="utf-8")
+    _css = style("explorer")
 
     strokes = traitlets.List().tag(sync=True)
     to = "draw on it"

@@ -1,15 +1,13 @@
 """The workshop of schemes: a Butcher tableau to type into, and all that follows from it."""
 
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 import traitlets
 from scipy.optimize import minimize_scalar
 
 from suspension import _checks
-from suspension.explorer.bundle import bundle, without_comments
-from suspension.explorer.instrument import Instrument
+from suspension.explorer.bundle import PAGE, bundle, style
+from suspension.explorer.instrument import LABORATORY, Instrument
 from suspension.explorer.settings import REFERENCE
 from suspension.explorer.still import svg
 from suspension.explorer.tables import unit_bump
@@ -19,9 +17,8 @@ from suspension.road import GaussianBump
 from suspension.robot import Robot
 from suspension.schemes import RK4, Scheme
 
-__all__ = ["KNOWN", "Workshop", "workshop_script", "workshop_style"]
+__all__ = ["KNOWN", "Workshop"]
 
-PAGE = Path(__file__).parent / "page"
 # As one writes them: rows of a and the weights b; c are the row sums.
 KNOWN = {
     "Euler": ("0", "1"),
@@ -64,11 +61,9 @@ class Workshop(Instrument):
     """
 
     _esm = bundle(PAGE, "workshop_widget")
-    _css = "".join(
-        (PAGE / name).read_text(encoding="utf-8") for name in ("explorer.css", "workshop.css")
-    )
+    _css = style("explorer", "workshop")
 
-    kind = "suspension-laboratory se-workshop"
+    kind = f"{LABORATORY} se-workshop"
     to = "type into it"
 
     tableau = traitlets.Dict().tag(sync=True)  # a, b, c as they are typed; does c follow a?
@@ -180,13 +175,3 @@ def longest_of_order_two(eigenvalues):
     ends = (best - tried[1], best + tried[1])
     found = minimize_scalar(lambda alpha: -limit(alpha), bounds=ends, method="bounded")
     return float(max(limit(best), -found.fun))
-
-
-def workshop_script():
-    """The script, a classic one, that brings every workshop of a page to life."""
-    return f"(() => {{\n{bundle(PAGE, 'workshop_page')}}})();\n"
-
-
-def workshop_style():
-    """The style sheet of a workshop, besides that of all live pictures."""
-    return without_comments((PAGE / "workshop.css").read_text(encoding="utf-8"))
