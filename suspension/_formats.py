@@ -184,7 +184,7 @@ def read_mat(path, raw):
         table = io.loadmat(path, variable_names=COLUMNS)
         names = _names(path, table)
         logical = _logical(path)
-    except NotImplementedError:
+    except NotImplementedError:  # how SciPy refuses version 7.3, which is HDF5
         raise ValueError(": expected a MATLAB file of version 7 or older (save -v7)") from None
     except Exception:  # the reader fails in many ways on what is no MATLAB file
         raise ValueError(": expected a MATLAB file, got something else") from None
