@@ -721,13 +721,11 @@ def test_play_moves_the_robot_and_stops_when_told(visit, pages):
 
 
 def scales(tab):
-    """What the list beside Play says, of each crossing in the same time and of all alike."""
-    return [
-        text.translate(PLAIN).split(",")[0]
-        for text in tab.get_by_role("combobox", name="Scale of time")
-        .locator("option")
-        .all_inner_texts()
-    ]
+    """What the list beside Play says, of every run in the same time and of all slowed alike."""
+    options = tab.get_by_role("combobox", name="Scale of time").locator("option").all_inner_texts()
+    paces, whose = zip(*(text.translate(PLAIN).split(": ") for text in options))
+    assert whose == ("8 s a run", "every run")
+    return list(paces)
 
 
 def test_the_clock_says_its_scale_of_time(visit, pages):

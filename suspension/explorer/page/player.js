@@ -105,7 +105,7 @@ export function makePlayer({ root, box, stage, bar }, facts, model, shown, { set
   function makeScale() {
     if (facts.lanes) return null;
     const made = make(bar, "select", "se-pace", { "aria-label": "Scale of time" });
-    made.title = `How fast the clock goes: each crossing in ${SECONDS} s, or all speeds alike`;
+    made.title = `How fast the clock goes: so that every run takes ${SECONDS} s, or slowed alike in every run`;
     for (const value of ["fit", "same"]) make(made, "option", "", { value });
     made.addEventListener("change", () => set({ pace: made.value }));
     return made;
@@ -147,8 +147,8 @@ export function makePlayer({ root, box, stage, bar }, facts, model, shown, { set
       moment.setAttribute("aria-valuetext", `t = ${unit(now.t, "s")}${event ? `, ${event.words}` : ""}`);
       if (scale) {
         const [fit, same] = scale.options;
-        write(fit, `${pace("fit")}, to fit`);
-        write(same, `${pace("same")}, all alike`);
+        write(fit, `${pace("fit")}: ${SECONDS}\u00a0s a run`);
+        write(same, `${pace("same")}: every run`);
         scale.value = model.get("pace");
         scale.disabled = calm.matches; // nothing plays
       }
