@@ -120,7 +120,23 @@ class Choices(NamedTuple):
 
 
 def fitted_with(robot, k, c):
-    """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles."""
+    """The robot with stiffness `k`, N/m, and damping `c`, N s/m, on both axles.
+
+    Parameters
+    ----------
+    robot : Robot
+    k, c : float
+        k > 0 and c >= 0.
+
+    Returns
+    -------
+    robot : Robot
+
+    Raises
+    ------
+    ValueError
+        If `k` or `c` is out of its range.
+    """
     _checks.instance("robot", robot, Robot)
     k, c = _checks.positive("k", k), _checks.nonnegative("c", c)
     return replace(robot, k1=k, k2=k, c1=c, c2=c)
@@ -214,6 +230,11 @@ def efficient(costs):
     Returns
     -------
     efficient : ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        If the costs are not finite, have another shape, or are of more candidates.
 
     Examples
     --------

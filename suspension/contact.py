@@ -47,7 +47,13 @@ __all__ = [
 
 
 def is_lost(margin):
-    """The verdict: whether a margin in N, a number or an array, means that contact is lost."""
+    """The verdict: whether a margin in N, a number or an array, means that contact is lost.
+
+    Raises
+    ------
+    ValueError
+        If a margin is no finite number: it would turn into "contact kept".
+    """
     return _checks.array("margin", margin) <= 0
 
 
@@ -114,6 +120,16 @@ class Regimes:
         """
         turns = np.diff(np.concatenate([[0], self.lost == lost, [0]]))
         return np.column_stack([self.edges[turns > 0], self.edges[turns < 0]])
+
+    @property
+    def regained(self):
+        """The ranges in which contact is kept although it is lost below them, ends first: (m, 2).
+
+        >>> Regimes([0.1, 0.4, 8, 30], [False, True, False]).regained
+        array([[ 8., 30.]])
+        """
+        kept = self.spans(lost=False)
+        return kept[kept[:, 0] > self.edges[0]]
 
     def __call__(self, v: ArrayLike) -> np.ndarray:
         """Whether contact is lost at values `v` within the edges: bool, of the shape of `v`.
@@ -192,6 +208,11 @@ def regimes_between(margin_at, edges, unit="m/s"):
     -------
     Regimes
 
+    Raises
+    ------
+    ValueError
+        If the edges are not > 0 and in order, or fewer than two, or a margin is no finite number.
+
     Examples
     --------
     >>> regimes_between(lambda k: 300 - k, [200, 250, 300, 1000], unit="N/m")
@@ -211,7 +232,7 @@ def regimes_between(margin_at, edges, unit="m/s"):
 def exact_loss(robot, bump, v, tfinal=None, *, distance=None):
     """The very moment at which a wheel first leaves the ground on the way over the bump.
 
-    Parameters are those of `margin`, and so is the start.
+    Parameters and errors are those of `margin`, and so is the start.
 
     Returns
     -------

@@ -41,8 +41,13 @@ def make_gfunc(robot, road):
 
     The returned function takes the state w, shape (4,), the time t in s and the speed v in m/s,
     and gives ``w' = A w + F(t)``, shape (4,), and the two normal forces in N.
-    """
 
+    Raises
+    ------
+    ValueError
+        When the returned function is called, if t or v is no finite number, or the road returns
+        another shape or what is not finite.
+    """
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
 
@@ -57,7 +62,14 @@ def make_gfunc(robot, road):
 
 
 def make_forcing(robot, road, v):
-    """Return ``F(t)``, shape (4,), of ``w' = A w + F(t)`` at speed `v` in m/s."""
+    """Return ``F(t)``, shape (4,), of ``w' = A w + F(t)`` at speed `v` in m/s.
+
+    Raises
+    ------
+    ValueError
+        If v is no finite number, and from the returned function, if t is none or the road returns
+        another shape or what is not finite.
+    """
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
     v = _checks.number("v", v)
@@ -86,6 +98,11 @@ def gfunc_linear(w, t, v):
         ``A w + F(t)``.
     N1, N2 : float
         Normal forces at the rear and the front wheel, N (Eq. 5).
+
+    Raises
+    ------
+    ValueError
+        If w has another shape or is not finite, or t or v is no finite number.
     """
     return make_gfunc(the_robot(), Hgauss)(_checks.array("w", w, (4,)), t, v)
 
@@ -109,6 +126,12 @@ def RK4(gfunc_handle, w0, deltat, tfinal, v):
     -------
     W : ndarray, shape (n, J+1)
     T : ndarray, shape (J+1,)
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, there are more than 10^8 steps, or w' has not the shape
+        of w.
     """
 
     def g(w, t):
@@ -149,6 +172,12 @@ def crank_nicolson(A, F, w0, deltat, tfinal):
     -------
     W : ndarray, shape (n, J+1)
     T : ndarray, shape (J+1,)
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range or F returns what is, there are more than 10^8 steps, or
+        the step has no solution.
     """
 
     def forcing(t):

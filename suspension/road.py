@@ -53,6 +53,11 @@ class GaussianBump:
         Half-width from the centre to the steepest point, m, > 0.
     centre : float
         Position of the top, m.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of its range.
     """
 
     height: float = 0.0254

@@ -102,6 +102,11 @@ class Scheme:
         -------
         R : ndarray of complex, the shape of `z`
             Infinite at a pole, and where the powers of z overflow.
+
+        Raises
+        ------
+        ValueError
+            If `z` does not hold numbers.
         """
         P, Q = self.polynomials
         z = _checks.array("z", z, dtype=complex, finite=False)
@@ -132,6 +137,12 @@ class Scheme:
         R : ndarray, shape (..., n, n)
         G : ndarray, shape (s, ..., n, n)
             In s.
+
+        Raises
+        ------
+        ValueError
+            If `A` is not finite or not square, `dt` is not > 0, or the equations of the stages have
+            no solution.
         """
         A, dt = _checks.array("A", A), _checks.positive("dt", dt)
         if A.ndim < 2 or A.shape[-1] != A.shape[-2]:
@@ -147,7 +158,24 @@ class Scheme:
         return np.eye(n) + G.sum(axis=0) @ A, G
 
     def is_stable(self, eigenvalues: ArrayLike, dt: float) -> bool:
-        """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to 1e-12)."""
+        """Whether no mode grows: ``|R(lambda dt)| <= 1`` for every eigenvalue (to 1e-12).
+
+        Parameters
+        ----------
+        eigenvalues : array_like of complex
+            1/s, any shape.
+        dt : float
+            Time step, s, > 0.
+
+        Returns
+        -------
+        stable : bool
+
+        Raises
+        ------
+        ValueError
+            If an eigenvalue is not finite, or `dt` is not > 0.
+        """
         z = _checks.array("eigenvalues", eigenvalues, dtype=complex) * _checks.positive("dt", dt)
         return bool((np.abs(self.stability_function(z)) <= 1 + TOLERANCE).all())
 
@@ -157,6 +185,20 @@ class Scheme:
         Along a ray ``z = lambda dt`` the method is stable where ``|Q|^2 - |P|^2 >= 0``, a real
         polynomial in dt: its first root with a change of sign is the limit. Eigenvalues with a
         positive real part give 0.
+
+        Parameters
+        ----------
+        eigenvalues : array_like of complex
+            1/s, any shape.
+
+        Returns
+        -------
+        dt : float
+
+        Raises
+        ------
+        ValueError
+            If an eigenvalue is not finite.
         """
         eigenvalues = _checks.array("eigenvalues", eigenvalues, dtype=complex)
         return float(min((self._limit(z) for z in eigenvalues.ravel()), default=np.inf))
@@ -198,6 +240,11 @@ class Scheme:
         -------
         points : ndarray, shape (n, 2)
             Real and imaginary part of z, in order along the curve.
+
+        Raises
+        ------
+        ValueError
+            If `n` is out of its range.
         """
         n = _checks.whole("n", n, 4)
         if n > MAX_POINTS:

@@ -224,6 +224,13 @@ def _forward_substitution(band, b):
 def steps(tfinal: float, dt: float, name: str = "dt") -> int:
     """Number of steps J from 0 to `tfinal`: ``ceil(tfinal / dt)``, forgiving roundoff.
 
+    Raises
+    ------
+    ValueError
+        If a time is not > 0, or there are more than 10^8 steps.
+
+    Examples
+    --------
     >>> steps(0.3, 0.1), steps(0.3001, 0.1)
     (3, 4)
     """

@@ -63,8 +63,7 @@ def answers(robot, regimes, flips, soft_lost, limit, slider):
 
 
 def _safer(regimes):
-    again = any(start > regimes.edges[0] for start, _ in regimes.spans(lost=False))
-    return f"**{'Sometimes' if again else 'No'}.** Contact is {ranges(regimes)}."
+    return f"**{'Sometimes' if len(regimes.regained) else 'No'}.** Contact is {ranges(regimes)}."
 
 
 def _leaves_first(robot, limit, slider):

@@ -100,9 +100,7 @@ def verdict(regimes, beyond=()):
     """Where contact is kept and lost, and where going faster is safer."""
     words = [f"Contact is {ranges(regimes)}."]
     name = dict(zip(regimes.edges, distinct(regimes.edges)))
-    for start, end in regimes.spans(lost=False):
-        if start == regimes.edges[0]:
-            continue  # slower was not looked at
+    for start, end in regimes.regained:
         if end > WIDE * start:
             words.append(
                 f"Going faster than {name[start]}{SPACE}m/s is *safer* than going a little slower."
@@ -244,14 +242,9 @@ def last_speed(before, after):
     else:
         much = "more" if factor > 2 else "less"
         answer = f"**It falls by {much},** {told}: by a factor of {number(factor, 2)}."
-    if _windows(before) and not _windows(after):
+    if len(before.regained) and not len(after.regained):
         answer += " The window before it has closed."
     return answer
-
-
-def _windows(regimes):
-    """The ranges in which contact is kept although it is lost below them."""
-    return [span for span in regimes.spans(lost=False) if span[0] > regimes.edges[0]]
 
 
 def critical_table(intervals, full):

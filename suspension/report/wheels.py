@@ -169,11 +169,9 @@ def heaviest_sentence(regimes, v, mass, body):
         Mass of the body, kg.
     """
     v, mass = np.asarray(v), np.asarray(mass)
-    lost, kept = (regimes.spans(lost=which) for which in (True, False))
-    windows = [span for span in kept if len(lost) and span[0] >= lost[0, 1]]
-    if not windows:
+    if not len(regimes.regained):
         return "Contact, once lost, is not found again at a higher speed."
-    low, high = windows[-1]
+    low, high = regimes.regained[-1]
     inside = (low < v) & (v < high)
     most = mass[inside].max() if inside.any() else 0.0
     where = f"the window from {number(low)} to {number(high)}{SPACE}m/s"

@@ -128,6 +128,24 @@ def test_spans_of_kept_and_lost_make_up_the_whole(edges, seed):
         assert (found(middles) == verdict).all()
 
 
+@pytest.mark.parametrize(
+    ("lost", "regained"),
+    [
+        ([0], []),
+        ([1], []),
+        ([0, 1], []),
+        ([1, 0], [[1, 2]]),
+        ([0, 1, 0], [[2, 3]]),
+        ([1, 1, 0], [[2, 3]]),
+        ([0, 0, 1, 0, 1, 0, 0], [[3, 4], [5, 7]]),
+    ],
+)
+def test_contact_is_regained_where_it_is_kept_above_a_loss(lost, regained):
+    found = Regimes(np.arange(len(lost) + 1) + 1e-9, lost)
+    assert found.regained.shape == (len(regained), 2)
+    assert found.regained == pytest.approx(np.reshape(regained, (-1, 2)))
+
+
 @quick
 @given(zeros=ranges, touched=st.floats(0.01, 100))
 def test_regimes_between_known_edges_are_the_signs_there(zeros, touched):

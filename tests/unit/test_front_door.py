@@ -144,3 +144,23 @@ def test_the_version_is_the_installed_one():
 def test_the_version_is_the_one_that_is_cited_and_described(file, line):
     text = (ROOT / file).read_text(encoding="utf-8")
     assert f"\n{line.format(suspension.__version__)}" in text
+
+
+def doors():
+    """What one calls at the front door, and the methods of its classes, by name."""
+    for name in suspension.__all__:
+        thing = getattr(suspension, name)
+        if not callable(thing):  # a scheme: its class is there, too
+            continue
+        yield name, thing
+        methods = vars(thing) if inspect.isclass(thing) else {}
+        for method, function in methods.items():
+            if inspect.isfunction(function) and not method.startswith("_"):
+                yield f"{name}.{method}", function
+
+
+@pytest.mark.parametrize(("name", "thing"), list(doors()))
+def test_what_takes_arguments_says_what_it_refuses(name, thing):
+    if set(inspect.signature(thing).parameters) - {"self"}:
+        told, _, refused = inspect.getdoc(thing).partition("Raises\n------\n")
+        assert "ValueError\n" in refused or "and errors are those of" in told
