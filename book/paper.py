@@ -22,6 +22,7 @@ ANSWERS = "book/answers"
 NEXT = re.compile(r'<link rel="next"[^>]*href="([^"#]+)')
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 MARGINS = {"top": "16mm", "bottom": "18mm", "left": "20mm", "right": "20mm"}
+LONG = 25  # rows: a longer table begins where it stands, and goes on overleaf
 FOOT = """<div style="font: 8pt sans-serif; width: 100%; text-align: center; color: #444">
 <span class="pageNumber"></span></div>"""
 STYLE = """
@@ -39,6 +40,8 @@ article.page h4 { font-size: 1.05rem; }
 article.page table { margin: 0.5em auto; line-height: 1.25; }
 article.page :is(td, th) { padding: 0.15em 0.6em; }
 article.page :is(td, th) p { margin: 0; }
+article.page table.long { break-inside: auto; }
+article.page tr { break-inside: avoid; }
 article.page .leads { break-after: avoid; } /* a sentence stays with its table */
 article.page figure { margin: 0.6em 0; }
 article.page figcaption { margin-top: 0.3em; }
@@ -91,6 +94,8 @@ def article(name, names):
         lead = table.find_previous("p")
         if lead and not lead.find_parent("table"):
             lead["class"] = [*lead.get("class", []), "leads"]
+        if len(table.find_all("tr")) > LONG:
+            table["class"] = [*table.get("class", []), "long"]
     prefix = name.replace("/", "-")
     for node in body.find_all(id=True):
         node["id"] = f"{prefix}--{node['id']}"

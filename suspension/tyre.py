@@ -19,7 +19,7 @@ from scipy.optimize import brentq, minimize_scalar
 from suspension import _checks
 from suspension.exact import Crossing
 from suspension.least_force import exact_forces, turning_points
-from suspension.road import road_input
+from suspension.road import checked_input, road_input
 from suspension.robot import Robot
 
 __all__ = ["Rolling", "Tyre", "heaviest_wheel", "roll"]
@@ -146,6 +146,7 @@ def roll(robot, road, tyre, *, v, tfinal, samples=2001, resolution=None, rtol=1e
             f"tfinal must take at most {MAX_STEPS} steps of half of resolution, "
             f"got tfinal={tfinal:g} and resolution={resolution:g} at v={v:g}"
         )
+    road_input(robot, road, v, tfinal * np.array([0.25, 0.75]))  # answers in arrays
     model = _Model(robot, road, tyre, v)
     z0 = model.rest()
     solver = Radau(
@@ -208,6 +209,11 @@ class _Model:
         compression = np.hstack([-ends, wheels, 0 * wheels])
         self.spring = robot.k[:, None] * compression
         self.spring += robot.c[:, None] * np.hstack([-rates, 0 * wheels, wheels])
+        self.free = np.zeros((8, 8))  # the Jacobian without any tyre
+        self.free[:4, :4] = robot.S
+        self.free[:4] += robot.P @ self.spring
+        self.free[[4, 5], [6, 7]] = 1
+        self.free[6:] = -self.spring / tyre.mass
 
     def rest(self):
         """The state at rest on level ground, shape (8,)."""
@@ -221,7 +227,7 @@ class _Model:
 
     def tyres(self, t, z):
         """How far tyres are pressed in, m, and what spring and damper of them give, N."""
-        u = road_input(self.robot, self.road, self.v, t)
+        u = checked_input(self.robot, self.road, self.v, t)
         q = u[:2] - z[4:6]
         return q, self.tyre.stiffness * q + self.tyre.damping * (u[2:] - z[6:8])
 
@@ -240,13 +246,8 @@ class _Model:
 
     def slope(self, t, z):
         """The Jacobian of `rate`, shape (8, 8)."""
-        robot, tyre = self.robot, self.tyre
+        tyre, J = self.tyre, self.free.copy()
         on = np.diag((self.presses(t, z) > 0).astype(float))
-        J = np.zeros((8, 8))
-        J[:4, :4] = robot.S
-        J[:4] += robot.P @ self.spring
-        J[4, 6] = J[5, 7] = 1
-        J[6:] = -self.spring / tyre.mass
         J[6:, 4:6] -= on * tyre.stiffness / tyre.mass
         J[6:, 6:] -= on * tyre.damping / tyre.mass
         return J
