@@ -204,7 +204,7 @@ class FrontDoor(Rst):
         names, package = " ".join(self.content).split(), importlib.import_module(PACKAGE)
         if sorted(names) != sorted(package.__all__):
             logger.warning("the front door has %s", package.__all__, location=self.get_location())
-        text = [".. list-table::", ""]
+        text = [".. list-table::", "   :class: front-door", ""]
         for name in names:
             text += [f"   * - {link(name, home(PACKAGE, name))}", f"     - {summary(name)}"]
         return self.parse(text, nodes.Element()).children

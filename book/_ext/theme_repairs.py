@@ -32,10 +32,18 @@ OF_THE_CONTENT = {
     # A header cell without a header: the corner of a pandas table.
     r'<th(?: class="head")?>(?:<p></p>)?</th>': "<td></td>",
 }
-# Words that name a property of every JavaScript object are no words of the search index.
-OF_THE_SEARCH = {
-    r"\{ files: (\w+)\[word\], score": r"{ files: Object.hasOwn(\1, word) ? \1[word] : [], score",
-}
+OF_THE_SCRIPTS = {
+    # Words that name a property of every JavaScript object are no words of the search index.
+    "searchtools.js": {
+        r"\{ files: (\w+)\[word\], score":
+        r"{ files: Object.hasOwn(\1, word) ? \1[word] : [], score",
+    },
+    # What scrolls is found by measuring all of it before any is altered: the page is laid out once.
+    "scripts/pydata-sphinx-theme.js": {
+        r"\{(\w)\.tabIndex=(\1\.scrollWidth>\1\.clientWidth\|\|\1\.scrollHeight>\1\.clientHeight)\?0:-1\}":
+        r"{const to=\2?0:-1;queueMicrotask(()=>{\1.tabIndex=to})}",
+    },
+}  # fmt: skip
 # The icons, and a list of the source pages to which no page links.
 UNUSED_FILES = ["_static/scripts/fontawesome.js*", "_modules/index.html"]
 
@@ -57,14 +65,17 @@ def repair(app, exception):
     for pattern in UNUSED_FILES:
         for path in Path(app.outdir).glob(pattern):
             path.unlink()
-    search = Path(app.outdir, "_static", "searchtools.js")
-    text = search.read_text(encoding="utf-8")
-    for pattern, replacement in OF_THE_SEARCH.items():
-        text, count = re.subn(pattern, replacement, text)
-        if count:
-            needed.add(pattern)
-    search.write_text(text, encoding="utf-8")
-    for pattern in (OF_THE_THEME | OF_THE_SEARCH).keys() - needed:
+    patterns = list(OF_THE_THEME)
+    for name, repairs in OF_THE_SCRIPTS.items():
+        script = Path(app.outdir, "_static", name)
+        text = script.read_text(encoding="utf-8")
+        for pattern, replacement in repairs.items():
+            patterns.append(pattern)
+            text, count = re.subn(pattern, replacement, text)
+            if count:
+                needed.add(pattern)
+        script.write_text(text, encoding="utf-8")
+    for pattern in set(patterns) - needed:
         logger.warning("no page needs this repair any more: %s", pattern)
 
 

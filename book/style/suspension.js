@@ -15,11 +15,13 @@
 
   const WIDE = "article .katex-display, .pst-scrollable-table-container";
   const reach = () => {
-    // What scrolls sideways can be reached by keyboard.
-    for (const box of document.querySelectorAll(WIDE)) {
-      if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
+    // What scrolls sideways can be reached by keyboard. All is measured before any is altered.
+    const boxes = [...document.querySelectorAll(WIDE)],
+      wide = boxes.map((box) => box.scrollWidth > box.clientWidth + 1);
+    boxes.forEach((box, i) => {
+      if (wide[i]) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
-    }
+    });
     // A table header that is a formula only has a name for checkers and older readers.
     for (const formula of document.querySelectorAll("article th math:not([aria-label])")) {
       formula.setAttribute("aria-label", formula.textContent);
@@ -27,9 +29,8 @@
   };
   const sizes = new ResizeObserver(reach); // of the window, and when a font comes late
   addEventListener("load", () => {
-    reach();
     for (const box of document.querySelectorAll(WIDE)) {
-      for (const each of [box, ...box.children]) sizes.observe(each);
+      for (const each of [box, ...box.children]) sizes.observe(each); // tells of each at once, too
     }
     // The widgets add to the text later. A widget at work changes nothing of this.
     const added = new MutationObserver((changes) => {
