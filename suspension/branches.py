@@ -8,6 +8,7 @@ A point of the plane is a complex number, ``ln v + i ln k``.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -126,6 +127,7 @@ def branches(robot, bump, vmin, vmax, kmin, kmax, check=None, *, distance=None):
     def with_stiffness(k):
         return replace(robot, k1=k, k2=k)
 
+    @lru_cache(maxsize=64)  # who looks for a zero asks for both ends of the interval again
     def margin_at(point):
         k, v = np.exp(point.imag), np.exp(point.real)
         return margin(with_stiffness(k), bump, v, distance=distance)

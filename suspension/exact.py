@@ -15,7 +15,7 @@ from suspension import _checks
 from suspension.road import GaussianBump
 from suspension.robot import Robot
 
-__all__ = ["Crossing", "bump_memory", "flat_ground", "modes", "over_bump"]
+__all__ = ["Crossing", "bump_memory", "flat_ground", "modes", "over_bump", "times"]
 
 ILL_CONDITIONED = 30.0  # eigenvectors lose digits as the square of this
 CIRCLE = 8  # points in a mean over a circle, whose error is about (1/40)^CIRCLE
@@ -53,7 +53,7 @@ def flat_ground(robot, w0, t):
             f"k1={robot.k1}, k2={robot.k2}, c1={robot.c1}, c2={robot.c2}, "
             f"L1={robot.L1}, L2={robot.L2}"
         )
-    w0, t = _checks.array("w0", w0, (4,)), _times(t)
+    w0, t = _checks.array("w0", w0, (4,)), times(t)
     Y_eq = robot.equilibrium[0]
     inertia = {0: robot.m, 2: robot.Izz / robot.L1**2}  # heave; pitch, as a mass at the wheels
     W = np.empty((4, *t.shape))
@@ -160,16 +160,19 @@ class Crossing:
         self.gain = left @ (robot.P * robot.k + robot.A @ self.direct)
         start = np.zeros(1)
         y0 = w0 - robot.equilibrium - self.direct @ self.road(start)[0][:, 0]
-        self.free = left @ y0 - np.sum(self.gain * self._memory(start)[:, :, 0], axis=1)
+        self.free = left @ y0 - np.sum(self.gain * self.memory(start)[:, :, 0], axis=1)
 
     def __call__(self, t):
         """State at times `t` >= 0, s, of shape (n,) or (): ndarray, shape (4, n) or (4,)."""
-        t = _times(t)
+        t = times(t)
         s = t.ravel()
-        q = self.free[:, None] * np.exp(self.lam[:, None] * s)
-        q += np.einsum("mi,min->mn", self.gain, self._memory(s))
-        W = self.direct @ self.road(s)[0] + (self.right @ q).real
-        return (self.robot.equilibrium[:, None] + W).reshape(4, *t.shape)
+        return self.state(s, self.road(s)[0], self.memory(s)).reshape(4, *t.shape)
+
+    def state(self, t, h, memory):
+        """State at times `t`, shape (4, n), from the heights (2, n) and what the modes remember."""
+        q = self.free[:, None] * np.exp(self.lam[:, None] * t)
+        q += np.einsum("mi,min->mn", self.gain, memory)
+        return self.robot.equilibrium[:, None] + (self.direct @ h + (self.right @ q).real)
 
     def road(self, t, order=0):
         """Height under both wheels and its time derivatives: a list of ndarrays, shape (2, n)."""
@@ -181,7 +184,8 @@ class Crossing:
             h.append(-2 * self.rate * (xi * h[n] + n * self.rate * h[n - 1]))
         return h
 
-    def _memory(self, t):
+    def memory(self, t):
+        """What each mode remembers of the bump under each wheel, shape (modes, 2, n), complex."""
         xi, lam = self.start[:, None] + self.rate * t, self.lam[:, None, None]
         if self.rate < 1e-16 * np.abs(lam).min():  # so slow that the ground is level
             return -self.bump.height * np.exp(-xi * xi) / lam
@@ -189,7 +193,8 @@ class Crossing:
         return scale * bump_memory(xi, lam / self.rate)
 
 
-def _times(t):
+def times(t):
+    """Return `t` as an array of finite numbers >= 0."""
     t = _checks.array("t", t)
     if (t < 0).any():
         raise ValueError(f"t must be >= 0, got {t.min()}")

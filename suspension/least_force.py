@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from suspension import _checks
-from suspension.exact import Crossing
+from suspension.exact import Crossing, times
 from suspension.problem import DISTANCE
 from suspension.road import GaussianBump
 from suspension.robot import Robot
@@ -215,15 +215,22 @@ def forces_and_minima(crossing, tfinal):
 
     Nothing is refused here: forces may overflow, or drown in the error.
     """
-    samples = _samples(crossing, tfinal)
+    samples, passing = _samples(crossing, tfinal)
     with np.errstate(all="ignore"):
-        parts = [
-            _with_minima(crossing, samples[i : i + CHUNK + 1])
-            for i in range(0, len(samples) - 1, CHUNK)
-        ]
-        t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
-        t, once = np.unique(t, return_index=True)  # the parts share their ends
-        return t, N[:, once], roundoff(crossing, tfinal)
+        parts, swings = [], []
+        for i in range(0, len(samples) - 1, CHUNK):
+            part = slice(i, i + CHUNK + 1)
+            memory = crossing.memory(samples[part])
+            parts.append(_with_minima(crossing, samples[part], memory))
+            swings.append(_swings(crossing, memory)[:, passing[part]])
+        t, N = parts[0] if len(parts) == 1 else _joined(parts)
+        return t, N, _roundoff(crossing, tfinal, np.concatenate(swings, axis=1))
+
+
+def _joined(parts):
+    t, N = (np.concatenate(part, axis=-1) for part in zip(*parts))
+    t, once = np.unique(t, return_index=True)  # the parts share their ends
+    return t, N[:, once]
 
 
 def duration(robot, bump, v, tfinal=None, distance=None):
@@ -237,20 +244,21 @@ def duration(robot, bump, v, tfinal=None, distance=None):
     return _checks.positive("tfinal", tfinal)
 
 
-def _with_minima(crossing, t):
+def _with_minima(crossing, t, memory):
     """The samples `t` and the minima between them: times, s, and forces, N."""
-    N, slope = exact_forces(crossing, t, 1)
+    N, slope = _forces(crossing, t, 1, memory)
     dt = np.diff(t)
     s = bottom(dt, np.diff(N), slope[:, :-1], slope[:, 1:])
     wheel, j = np.nonzero((s > 0) & (s < 1))
     at = t[j] + s[wheel, j] * dt[j]
     each = np.arange(len(j))
     for _ in range(2):  # Newton's method, from 1e-2 of a sample to roundoff
-        _, slope, bend = exact_forces(crossing, at, 2)[:, wheel, each]
+        _, slope, bend = _forces(crossing, at, 2, crossing.memory(at))[:, wheel, each]
         step = np.divide(slope, bend, out=np.zeros_like(at), where=bend > 0)
         at = np.clip(at - step, t[j], t[j + 1])
     t, order = np.unique(np.concatenate([t, at]), return_index=True)
-    return t, np.concatenate([N, exact_forces(crossing, at)[0]], axis=1)[:, order]
+    (least,) = _forces(crossing, at, 0, crossing.memory(at))
+    return t, np.concatenate([N, least], axis=1)[:, order]
 
 
 def bottom(dt, rise, before, after):
@@ -282,11 +290,19 @@ def roundoff(crossing, tfinal):
     six kinds (stiff, undamped, critically damped, c up to 1e8), held against 60 digits, the error
     reached 0.7 of this estimate.
     """
-    robot, bump, lam = crossing.robot, crossing.bump, crossing.lam
     passing = _passing(crossing)
     passing = passing[(passing >= 0) & (passing <= tfinal)]
-    swing = np.abs(crossing.gain[:, :, None] * crossing._memory(np.append(0.0, passing)))
-    modes = np.abs(crossing.free) + swing.sum(axis=1).max(axis=1)
+    return _roundoff(crossing, tfinal, _swings(crossing, crossing.memory(np.append(0, passing))))
+
+
+def _swings(crossing, memory):
+    """How far the bump makes each mode swing, shape (modes, n), from what it remembers of it."""
+    return np.abs(crossing.gain[:, :, None] * memory).sum(axis=1)
+
+
+def _roundoff(crossing, tfinal, swings):
+    robot, bump, lam = crossing.robot, crossing.bump, crossing.lam
+    modes = np.abs(crossing.free) + swings.max(axis=1)
     alive = np.minimum(tfinal, 1 / np.maximum(-lam.real, 1e-300))
     units = 8 + np.abs(lam).max() * alive
     state = np.abs(crossing.right) @ (units * modes)
@@ -312,15 +328,22 @@ def exact_forces(crossing, t, order=0):
     N : ndarray, shape (order + 1, 2, n)
         In N, N/s, ...
     """
+    t = times(t)
+    return _forces(crossing, t, order, crossing.memory(t))
+
+
+def _forces(crossing, t, order, memory):
     robot = crossing.robot
-    w, h, N = crossing(t), crossing.road(t, order + 1), []
+    h, N = crossing.road(t, order + 1), np.empty((order + 1, 2, len(t)))
+    w = crossing.state(t, h[0], memory)
     for n in range(order + 1):
         u = np.concatenate(h[n : n + 2])
-        N.append(robot.C @ w + robot.D @ u)
-        w = robot.A @ w + robot.B @ u
-        if n == 0:
-            w += robot.e[:, None]
-    return np.array(N)
+        N[n] = robot.C @ w + robot.D @ u
+        if n < order:
+            w = robot.A @ w + robot.B @ u
+            if n == 0:
+                w += robot.e[:, None]
+    return N
 
 
 def sample_count(robot, v, distance):
@@ -329,6 +352,7 @@ def sample_count(robot, v, distance):
 
 
 def _samples(crossing, tfinal):
+    """Times, s, in order, and which of them are `_passing`, or the start."""
     # Three clocks: how fast a wheel passes the bump (and moves away from it), how fast the modes
     # swing, and how fast what is left from t = 0 dies away.
     swings = 2.5 * tfinal * np.abs(crossing.lam.imag).max()
@@ -341,8 +365,13 @@ def _samples(crossing, tfinal):
     swinging = np.linspace(0, tfinal, 2 + int(swings))
     fastest = 0.1 / np.abs(crossing.lam).max()
     dying = np.geomspace(fastest, max(tfinal, fastest), 2 + int(7 * np.log1p(tfinal / fastest)))
-    t = np.concatenate([_passing(crossing), swinging, dying])
-    return np.unique(t[(t >= 0) & (t <= tfinal)])
+    passing = _passing(crossing)
+    t = np.concatenate([passing, swinging, dying])
+    inside = (t >= 0) & (t <= tfinal)
+    t, first = np.unique(t[inside], return_index=True)
+    among = first < np.count_nonzero(inside[: len(passing)])
+    among[0] = True
+    return t, among
 
 
 def _passing(crossing):

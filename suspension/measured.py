@@ -20,6 +20,7 @@ __all__ = [
     "Share",
     "Study",
     "follow_speed",
+    "follow_speeds",
     "joint_draws",
     "surviving",
     "zero_speeds",
@@ -187,20 +188,42 @@ def follow_speed(robot, law, road, v):
     speeds : ndarray, shape (n,)
         m/s; nan where the margin has one sign at nine speeds up to a factor 1.3 to both sides.
     """
+    return follow_speeds(robot, law, road, [_checks.positive("v", v)])[0]
+
+
+def follow_speeds(robot, law, road, v):
+    """Where several critical speeds are when the law is another one: `follow_speed` in one go.
+
+    Parameters
+    ----------
+    robot, law, road
+        As in `follow_speed`.
+    v : array_like, shape (m,)
+        Where the critical speeds were, m/s, > 0.
+
+    Returns
+    -------
+    speeds : ndarray, shape (m, n)
+        m/s, or nan, as in `follow_speed`.
+    """
     _checks.instance("law", law, SpringLaw)
     if len(law.shape) != 1:
         raise ValueError(f"law must be a row of laws, got shape {law.shape}")
-    x = np.log(_checks.positive("v", v)) + np.linspace(-1, 1, 9) * np.log(REACH)
-    margins = _margins_of(robot, law, road)(x[:, None])
+    v = _checks.positives("v", v, (None,))
+    x = np.log(v[:, None]) + np.linspace(-1, 1, 9)[:, None, None] * np.log(REACH)
+    shape = (v.size, *law.shape)
+    margins = _margins_of(robot, law, road)(x).reshape(9, -1)
     turns = margins[:-1] * margins[1:] < 0
     # From the middle outwards, so that the first change of sign is the nearest.
     order = np.argsort(np.abs(np.arange(8) - 3.5), kind="stable")
-    j = order[np.argmax(turns[order], axis=0)]
     some = np.flatnonzero(turns.any(axis=0))
-    j = j[some]
-    ends, values = np.array([x[j], x[j + 1]]), np.array([margins[j, some], margins[j + 1, some]])
-    speeds = np.full(law.shape, np.nan)
-    speeds[some] = np.exp(_zeros_between(_margins_of(robot, law[some], road), ends, values, 1))
+    j = order[np.argmax(turns[order][:, some], axis=0)]
+    which, case = np.unravel_index(some, shape)
+    ends = np.array([x[j, which, 0], x[j + 1, which, 0]])
+    values = np.array([margins[j, some], margins[j + 1, some]])
+    speeds = np.full(shape, np.nan)
+    margin = _margins_of(robot, law[case], road)
+    speeds[which, case] = np.exp(_zeros_between(margin, ends, values, 1))
     return speeds
 
 
@@ -255,7 +278,7 @@ class Findings(NamedTuple):
     critical : array_like
         Critical speeds, m/s.
     followed : sequence of ndarray
-        Where each of these goes with the coefficients (`follow_speed`), m/s.
+        Where each of these goes with the coefficients (`follow_speeds`), m/s.
     """
 
     run: Drive

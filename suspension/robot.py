@@ -106,7 +106,7 @@ class Robot:
     @_constant
     def D(self) -> np.ndarray:
         """Road input to normal forces, Eq. 5, shape (2, 4)."""
-        return np.hstack([np.diag(self.k), np.diag(self.c)])
+        return np.array([[self.k1, 0, self.c1, 0], [0, self.k2, 0, self.c2]])
 
     @_constant
     def S(self) -> np.ndarray:
@@ -145,7 +145,7 @@ class Robot:
         Solved for Y and theta alone, so that the two velocities are exactly zero.
         """
         w = np.zeros(4)
-        w[[0, 2]] = np.linalg.solve(self.A[np.ix_([1, 3], [0, 2])], -self.e[[1, 3]])
+        w[::2] = np.linalg.solve(self.A[1::2, ::2], -self.e[1::2])
         return w + 0.0  # no -0.0
 
     @property

@@ -76,6 +76,10 @@ class SpringLaw:
         for name, value in zip(names, values):
             object.__setattr__(self, name, value)
         object.__setattr__(self, "delta_max", _checks.positive("delta_max", self.delta_max))
+        # A loop would ask for these at every step.
+        steep = self.stop * self.delta_max if self.stop.any() else None
+        object.__setattr__(self, "_bent", bool(self.beta2.any()))
+        object.__setattr__(self, "_stopping", steep)
 
     @classmethod
     def of(cls, fit, stop=0.0):
@@ -114,11 +118,11 @@ class SpringLaw:
         """Force in N at compressions `delta` in m; shapes broadcast."""
         x = np.asarray(delta) / self.delta_max
         force = self.beta0 + self.beta1 * x
-        if self.beta2.any():
+        if self._bent:
             nearest = np.minimum(np.maximum(x, 0), 1)
             force = force + self.beta2 * nearest * (2 * x - nearest)
-        if self.stop.any():
-            force = force + self.stop * self.delta_max * np.maximum(x - 1, 0)
+        if self._stopping is not None:
+            force = force + self._stopping * np.maximum(x - 1, 0)
         return force
 
     def tangent(self, delta):

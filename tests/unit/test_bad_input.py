@@ -914,6 +914,13 @@ TABLE = [
         {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
+        "follow_speeds",
+        measured.follow_speeds,
+        {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": [20.0]},
+        {"law": [LAW], "v": [*not_an_array([1.0, 2.0]), 1.0, [[1.0]], [0, 1], [1e-300]]},
+        {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
+    ),
+    Row(
         "surviving",
         measured.surviving,
         {"critical": [[1.0, 2.0], [1.1]]},

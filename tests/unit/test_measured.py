@@ -13,6 +13,7 @@ from suspension.measured import (
     Share,
     Study,
     follow_speed,
+    follow_speeds,
     joint_draws,
     surviving,
     zero_speeds,
@@ -50,6 +51,15 @@ def test_a_critical_speed_is_followed_through_other_laws():
 def test_a_critical_speed_that_is_gone_is_not_found():
     stopped = SpringLaw(0.0, 800 * DELTA_MAX, 0.0, DELTA_MAX, stop=[0.0, 8000.0])
     assert list(np.isfinite(follow_speed(ROBOT, stopped, BUMP, 7.95))) == [True, False]
+
+
+def test_critical_speeds_are_followed_side_by_side_as_one_by_one():
+    laws = SpringLaw(0.0, np.array([780.0, 800.0]) * DELTA_MAX, 0.0, DELTA_MAX, stop=[0.0, 8000.0])
+    together = follow_speeds(ROBOT, laws, BUMP, [7.95, 20.4])
+    single = [follow_speed(ROBOT, laws, BUMP, v) for v in (7.95, 20.4)]
+    assert np.isfinite(together).sum() >= 2
+    np.testing.assert_allclose(together, single, rtol=1e-6)
+    assert follow_speeds(ROBOT, laws, BUMP, []).shape == (0, 2)
 
 
 def test_a_critical_stop_parts_the_stops_that_keep_contact():
