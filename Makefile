@@ -36,11 +36,15 @@ lint: $(VENV)
 quick: lint
 	$(PYTEST) --dist worksteal -m "not slow" $(WITHOUT_NBVAL) tests/unit suspension
 
-# Before a change is handed in: everything. The book takes what nbval has executed a moment before.
+# Before a change is handed in: everything. The book takes what nbval has executed a moment before, and
+# is built beside the tests that need none, by one process. What it says stands below what they say.
 test: readings lint
-	$(PYTEST) $(BY_FILE) -m "not built" notebooks tests suspension
-	@$(MAKE) --no-print-directory book
-	$(PYTEST) $(BY_FILE) -m built tests/book tests/browser tests/unit/test_explorer_page.py
+	$(PYTEST) $(BY_FILE) notebooks
+	@echo "Building the book, beside the tests that need none ..."
+	@mkdir -p _build; trap 'kill $$book' INT TERM; $(BUILD) >_build/build.log 2>&1 & book=$$!; \
+	    $(PYTEST) $(BY_FILE) -m "not built" $(WITHOUT_NBVAL) tests suspension; failed=$$?; \
+	    wait $$book || failed=$$?; cat _build/build.log; exit $$failed
+	$(PYTEST) $(BY_FILE) -m built $(WITHOUT_NBVAL) tests/book tests/browser tests/unit/test_explorer_page.py
 
 # Do the tests notice? Changes the core, one operator or number at a time, and runs its unit tests.
 # MODULES="robot critical" picks some, SAMPLE=40 takes so many of each.

@@ -1,10 +1,29 @@
 """Fixtures: the built book, a web server that serves it, and a browser to read it with."""
 
 import os
+import re
 from pathlib import Path
 
 import pytest
 from helpers import ROOT, find_chromium, serve_files, start_chromium
+from xdist.scheduler import LoadFileScheduling
+
+# Files of which each data set is computed by itself, for a minute or so.
+BY_DATA = re.compile(r"(.*/test_other_data\.py)::.*?\[(\w+)")
+
+
+class ByFile(LoadFileScheduling):
+    """A file's tests stay in one process, but for those of different data sets."""
+
+    def _split_scope(self, nodeid):
+        by_data = BY_DATA.match(nodeid)
+        return "::".join(by_data.groups()) if by_data else super()._split_scope(nodeid)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """How `make test` shares the tests out."""
+    return ByFile(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 @pytest.hookimpl(tryfirst=True)  # before they are chosen by their marks

@@ -95,6 +95,11 @@ class UnitArray(np.ndarray):
         self.units = getattr(other, "units", None)
 
 
+def plain(text):
+    """A text without its no-break spaces."""
+    return text.replace("\xa0", " ")
+
+
 def near(actual, expected, relative):
     """Assert that two arrays differ by at most `relative` of the largest expected element.
 

@@ -1,10 +1,13 @@
 """What the browser tests of the laboratory's instruments share."""
 
 from contextlib import contextmanager
+from itertools import pairwise
 
 import nbformat
 from helpers import AXE, violations
 from nbformat.v4 import new_code_cell, new_notebook
+
+from suspension.explorer import page_script, page_style
 
 PAGE = "notebooks/13-laboratory.html"
 PIXELS = """canvas => {
@@ -47,20 +50,41 @@ def pictures(tab, box):
     return [canvas.evaluate(PIXELS) for canvas in tab.locator(f"{box} canvas").all()]
 
 
-def touch(tab, start, end):
-    """A finger's way over the screen, in pixels of the window."""
+def touch(tab, *points):
+    """A finger's way over the screen from point to point, in pixels of the window."""
     client = tab.context.new_cdp_session(tab)
 
     def send(kind, *at):
         fingers = [{"x": x, "y": y} for x, y in at]
         client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
 
-    (x0, y0), (x1, y1) = start, end
-    send("touchStart", (x0, y0))
-    for n in range(1, 9):
-        send("touchMove", (x0 + (x1 - x0) * n / 8, y0 + (y1 - y0) * n / 8))
+    send("touchStart", points[0])
+    for (x0, y0), (x1, y1) in pairwise(points):
+        for n in range(1, 9):
+            send("touchMove", (x0 + (x1 - x0) * n / 8, y0 + (y1 - y0) * n / 8))
     send("touchEnd")
     tab.wait_for_timeout(200)
+
+
+def settle(tab):
+    """Wait until two frames have been drawn."""
+    tab.evaluate(
+        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
+
+
+def write_pages(folder, bodies):
+    """Bare pages of explorers by name, in the way that the book makes them."""
+    (folder / "explorer.js").write_text(page_script(), encoding="utf-8")
+    (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
+    for name, body in bodies.items():
+        (folder / f"{name}.html").write_text(
+            '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
+            '<link rel="icon" href="data:,"><link rel="stylesheet" href="explorer.css">'
+            f'<script src="explorer.js" defer></script><body>{body}',
+            encoding="utf-8",
+        )
 
 
 def objections(tab, box, act):

@@ -11,15 +11,16 @@ from urllib.parse import urlencode
 import nbformat
 import numpy as np
 import pytest
-from helpers import PARITY, ROOT, largest_difference, parse, serve_files, swipe
+from helpers import AXE, PARITY, ROOT, largest_difference, parse, serve_files, swipe, violations
+from instruments import settle, write_notebook, write_pages
 from lab import run_all, serve
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+from nbformat.v4 import new_markdown_cell, new_notebook
 from PIL import Image
 
 from suspension import problem
 from suspension.contact import margin
 from suspension.course import the_robot
-from suspension.explorer import SCHEMES, explore, page_script, page_style
+from suspension.explorer import SCHEMES, explore
 from suspension.explorer.family import Family, Range
 from suspension.flight import fly
 from suspension.forces import first_loss
@@ -28,7 +29,6 @@ from suspension.robot import Robot
 from suspension.schemes import Scheme
 from suspension.simulation import simulate
 
-AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 BOX = ".suspension-explorer-box"
 VIEW = f"{BOX} .suspension-explorer"
 SLIDERS = ["Speed v (m/s)", "Step Δt (ms)", "Stiffness k (N/m)", "Damping c (N s/m)"]
@@ -57,8 +57,6 @@ CHART, RACE, SMALL = "chart", "race", "small"  # more pages, of the first robot 
 def pages(tmp_path_factory):
     """A folder with a bare page for each of PAGES, in the way that the book makes them."""
     folder = tmp_path_factory.mktemp("pages")
-    (folder / "explorer.js").write_text(page_script(), encoding="utf-8")
-    (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
     presets = [("Long steps", {"v": 5, "dt": 0.05, "scheme": "Crank-Nicolson"})]
     boxes = {
         name: explore(robot, road, schemes=(*SCHEMES, HEUN), presets=presets, **KNOWN)
@@ -67,18 +65,13 @@ def pages(tmp_path_factory):
     boxes[CHART] = explore(*PAGES["bump"], compact="chart", **KNOWN)
     boxes[RACE] = explore(*PAGES["bump"], compact="race", motion="flying", **KNOWN)
     boxes[SMALL] = explore(*PAGES["bump"], compact=True, motion="flying", **KNOWN)
-    for name, box in boxes.items():
-        (folder / f"{name}.html").write_text(
-            '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
-            '<link rel="icon" href="data:,"><link rel="stylesheet" href="explorer.css">'
-            '<script src="explorer.js" defer></script>'
-            f"<body><main><h1>Explorer</h1>{box.html()}"
-            '<p>What happens <a href="#explore:v=5&motion=flying">at 5 m/s</a>, and '
-            '<a href="#explore:v=1.2&dt=0.1&scheme=Crank-Nicolson">by a long step</a>?</p>'
-            "</main></body></html>",
-            encoding="utf-8",
-        )
+    bodies = {
+        name: f"<main><h1>Explorer</h1>{box.html()}"
+        '<p>What happens <a href="#explore:v=5&motion=flying">at 5 m/s</a>, and '
+        '<a href="#explore:v=1.2&dt=0.1&scheme=Crank-Nicolson">by a long step</a>?</p></main>'
+        for name, box in boxes.items()
+    }
+    write_pages(folder, bodies)
     return folder
 
 
@@ -147,13 +140,6 @@ LOOK = """root => new Promise((done) => requestAnimationFrame(() => requestAnima
     .map((name) => root.querySelector(name).innerText).join(" ");
   done([words, pictures]);
 })))"""
-
-
-def settle(tab):
-    """Wait until two frames have been drawn."""
-    tab.evaluate(
-        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-    )
 
 
 def look(tab, nth=0):
@@ -1188,18 +1174,6 @@ def test_the_charts_bump_can_be_taken_hold_of(visit, served):
     assert "from there on" in words(tab) or "at every speed" in words(tab)
 
 
-def violations(tab, *rules):
-    """What axe objects to, by some of its rules or by all; and how many rules found nothing."""
-    options = {"resultTypes": ["violations"]} | ({"runOnly": list(rules)} if rules else {})
-    result = tab.evaluate("options => axe.run(document, options)", options)
-    found = [
-        f"{violation['id']}: {node['target']} {node['failureSummary']}"
-        for violation in result["violations"]
-        for node in violation["nodes"]
-    ]
-    return found, len(result["passes"])
-
-
 def test_long_random_use_complains_of_nothing_and_keeps_its_memory(visit, pages):
     """EXPLORER_MINUTES=10 for the whole of it."""
     tab, rng = visit(f"{pages.as_uri()}/bump.html"), np.random.default_rng(2)
@@ -1320,10 +1294,7 @@ def lab(tmp_path_factory):
     built.write_text(
         "<title>Built</title><h2 id='the-same-as-matrices'>Matrices</h2>", encoding="utf-8"
     )
-    notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook.metadata.kernelspec = kernel
-    nbformat.write(notebook, folder / "drive.ipynb")
+    write_notebook(folder / "drive.ipynb", LAB_CELLS)
     with serve(folder, "--config=book/_lab/jupyter_server_config.py") as address:
         yield address, folder
 

@@ -1,13 +1,11 @@
 """A curve that a reader draws in the built book, and the answer that is laid beside it."""
 
 import re
-from itertools import pairwise
 
-import nbformat
 import pytest
 from helpers import AXE, violations
+from instruments import PIXELS, touch, write_notebook
 from lab import run_all, serve
-from nbformat.v4 import new_code_cell, new_notebook
 
 PAGE = "notebooks/04-one-chart.html"
 ASKED, ANSWERED = ".suspension-prediction.se-asked", ".suspension-prediction.se-answered"
@@ -15,11 +13,6 @@ BOTH = ".suspension-prediction"
 W = [(0.02, 0.95), (0.35, 0.2), (0.7, 0.7), (0.98, 0.3)]  # falls, rises and falls
 DOWN = [(0.02, 0.95), (0.98, 0.1)]
 LIMITS = ("follow", "throw", "skim")
-PIXELS = """canvas => {
-  const { width, height } = canvas;
-  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-  return new Uint32Array(data.buffer).reduce((number, pixel) => (31 * number + pixel) | 0, width);
-}"""
 
 
 @pytest.fixture
@@ -58,22 +51,6 @@ def draw(tab, points):
     for place in others:
         tab.mouse.move(*place, steps=12)
     tab.mouse.up()
-
-
-def touch(tab, points):
-    """A finger's way over the screen, in pixels of the window."""
-    client = tab.context.new_cdp_session(tab)
-
-    def send(kind, *at):
-        fingers = [{"x": x, "y": y} for x, y in at]
-        client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
-
-    send("touchStart", points[0])
-    for (x0, y0), (x1, y1) in pairwise(points):
-        for n in range(1, 9):
-            send("touchMove", (x0 + (x1 - x0) * n / 8, y0 + (y1 - y0) * n / 8))
-    send("touchEnd")
-    tab.wait_for_timeout(200)
 
 
 def words(tab, which=ASKED):
@@ -143,12 +120,12 @@ def test_another_curve_is_told_something_else(visit):
 def test_a_finger_draws_on_the_frame_and_scrolls_beside_it(visit):
     tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     before = tab.evaluate("scrollY")
-    touch(tab, places(tab, W))
+    touch(tab, *places(tab, W))
     assert words(tab).startswith("Your curve falls, rises and falls.")
     assert tab.evaluate("scrollY") == before
     drawn = words(tab)
     beside = places(tab, [(-0.04, 0.6), (-0.04, 1.4)])  # over the numbers of the axis
-    touch(tab, beside)
+    touch(tab, *beside)
     assert tab.evaluate("scrollY") > before and words(tab) == drawn
 
 
@@ -292,10 +269,7 @@ asked.answer(x, lines, np.minimum(0.4 * x, 100 / x))""",
 
 @pytest.mark.slow
 def test_the_same_prediction_is_alive_in_jupyterlab(browser, tmp_path):
-    notebook = new_notebook(cells=[new_code_cell(source) for source in LAB_CELLS])
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    notebook.metadata.kernelspec = kernel
-    nbformat.write(notebook, tmp_path / "predict.ipynb")
+    write_notebook(tmp_path / "predict.ipynb", LAB_CELLS)
     tab = browser.new_page(viewport={"width": 1300, "height": 1200})
     errors = []
     tab.on("pageerror", lambda error: errors.append(str(error)))

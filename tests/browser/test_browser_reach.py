@@ -7,11 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from helpers import FLAGS, swipe
+from instruments import settle, write_pages
 from PIL import Image
 
 from suspension import problem
 from suspension.course import Hgauss, the_robot
-from suspension.explorer import explore, page_script, page_style
+from suspension.explorer import explore
 
 BOX = ".suspension-explorer-box.se-live"
 LABELS = 200  # settings
@@ -22,18 +23,12 @@ SIZES = ((360, 800), (620, 800), (683, 384), (1000, 800), (1900, 800))
 def folder(tmp_path_factory):
     """Two bare pages: an explorer with all panels, and the chart."""
     folder = tmp_path_factory.mktemp("reach")
-    (folder / "explorer.js").write_text(page_script(), encoding="utf-8")
-    (folder / "explorer.css").write_text(page_style(), encoding="utf-8")
     known = {"asked": problem.SPEEDS, "spring_end": problem.DELTA_MAX}
-    for name, compact in (("whole", False), ("chart", "chart")):
-        html = explore(the_robot(), Hgauss, compact=compact, **known).html()
-        (folder / f"{name}.html").write_text(
-            '<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width"><title>Explorer</title>'
-            '<link rel="icon" href="data:,"><link rel="stylesheet" href="explorer.css">'
-            f'<script src="explorer.js" defer></script><body>{html}',
-            encoding="utf-8",
-        )
+    bodies = {
+        name: explore(the_robot(), Hgauss, compact=compact, **known).html()
+        for name, compact in (("whole", False), ("chart", "chart"))
+    }
+    write_pages(folder, bodies)
     return folder
 
 
@@ -43,12 +38,6 @@ def show(browser, url, **options):
     tab.goto(url)
     tab.wait_for_selector(f"{BOX} canvas[aria-label]", state="attached")
     return tab
-
-
-def settle(tab):
-    tab.evaluate(
-        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-    )
 
 
 # Keeps what is written into each canvas since it was cleared, and which canvas lies under which.

@@ -7,15 +7,23 @@ import ast
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from helpers import ROOT, windows_locale
 
+
+def sources(folder):
+    """Python's files below a folder; not those from npm, which the book may just be installing."""
+    for place, folders, files in os.walk(ROOT / folder):
+        folders[:] = [name for name in folders if name != "node_modules"]
+        yield from (Path(place, name) for name in files if name.endswith(".py"))
+
+
 SOURCES = [
     path
     for folder in ("suspension", "book", "notebooks", "data", "tests", "benchmarks")
-    for path in sorted((ROOT / folder).rglob("*.py"))
-    if "node_modules" not in path.parts
+    for path in sorted(sources(folder))
 ]
 # What is read and written while the package, the tools of the book and the notebooks are at work.
 AT_WORK = r"""

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults
+from helpers import plain
 
 from suspension.flight import fly
 from suspension.report import airborne as part
@@ -21,11 +22,6 @@ ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
 }
 SPEEDS = (0.5, 1.2, 5)
 each_robot = pytest.mark.parametrize("name", ROBOTS)
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 @cache

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults, fitted
+from helpers import plain
 
 from suspension.choice import Candidate, Choice, Choices, Demands, fitted_with
 from suspension.contact import Regimes
@@ -38,11 +39,6 @@ CANDIDATES = {
     "contact": look(SOFT, margin=0.3, felt=9.0, room=0.051),
     "at every speed": look(WIDE.robot, margin=0.7),
 }
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def conclude(**changed):

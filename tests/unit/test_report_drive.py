@@ -2,6 +2,7 @@
 
 import re
 
+import helpers
 import pytest
 from cases import STIFFNESSES, faults
 
@@ -21,7 +22,7 @@ ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
 
 def plain(text):
     """A text without its no-break spaces and its links."""
-    return re.sub(r"\[([^]]*)\]\(#[^)]*\)", r"\1", text).replace("\xa0", " ")
+    return helpers.plain(re.sub(r"\[([^]]*)\]\(#[^)]*\)", r"\1", text))
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import DELTA_MAX, faults, fitted
+from helpers import plain
 
 from suspension.measured import Findings, Study, follow_speed, joint_draws, zero_speeds
 from suspension.report import measured as part
@@ -25,11 +26,6 @@ FITS = {
     "bent": fitted(1000, preload=-0.5, curvature=-3.0),
 }
 each_fit = pytest.mark.parametrize("name", FITS)
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def laws_of(beta, k):

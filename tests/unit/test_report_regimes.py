@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from cases import DELTA_MAX, faults, fitted
-from helpers import shaded
+from helpers import plain, shaded
 from matplotlib import pyplot as plt
 
 from suspension import contact
@@ -33,11 +33,6 @@ FAR = (
     Overtravel(0.72, HIGH, 2.14),
 )
 each_travel = pytest.mark.parametrize("beyond", [(), FAR[:1], FAR, [Overtravel(LOW, HIGH, 1.3)]])
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def asked(*stretches):

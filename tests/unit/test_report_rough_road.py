@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from cases import faults
+from helpers import plain
 
 from suspension.report import rough_road as part
 from suspension.rides import Rides
@@ -21,11 +22,6 @@ def ridden(flights, force=(3.0, 6.0)):
 
 SOME = ridden([[2, 9], [0, 7], [3, 8]])
 NONE = ridden(np.zeros((3, 2)))
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def test_who_flies_where():

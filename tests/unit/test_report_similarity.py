@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults
+from helpers import plain
 
 from suspension.contact import Regimes, regimes
 from suspension.problem import SPEEDS
@@ -47,11 +48,6 @@ CASES = {  # edges, lost, and what the sentences must say
     "always": ([0.1, 60], [0], "Every speed"),
     "never": ([0.1, 60], [1], "No speed"),
 }
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def sound(*texts):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from cases import STIFFNESSES, faults
+from helpers import plain
 
 from suspension import accuracy
 from suspension.exact import over_bump
@@ -19,11 +20,6 @@ ROBOTS = {f"k = {k}": Robot(k, k) for k in STIFFNESSES} | {
 METHODS = (EULER, BACKWARD_EULER, CRANK_NICOLSON, RK4)
 PROMISED = {"Crank-Nicolson": 2, "RK4": 4}
 each_robot = pytest.mark.parametrize("name", ROBOTS)
-
-
-def plain(text):
-    """A text without its no-break spaces."""
-    return text.replace("\xa0", " ")
 
 
 def slopes(orders, losses=True, n=9):
