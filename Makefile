@@ -42,7 +42,7 @@ test: readings lint
 	$(PYTEST) $(BY_FILE) notebooks
 	@echo "Building the book, beside the tests that need none ..."
 	@mkdir -p _build; trap 'kill $$book' INT TERM; $(BUILD) >_build/build.log 2>&1 & book=$$!; \
-	    $(PYTEST) $(BY_FILE) -m "not built" $(WITHOUT_NBVAL) tests suspension; failed=$$?; \
+	    $(PYTEST) $(BY_FILE) -m "not built" tests suspension; failed=$$?; \
 	    wait $$book || failed=$$?; cat _build/build.log; exit $$failed
 	$(PYTEST) $(BY_FILE) -m built $(WITHOUT_NBVAL) tests/book tests/browser tests/unit/test_explorer_page.py
 
