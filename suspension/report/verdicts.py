@@ -134,9 +134,8 @@ def table_note(runs):
     )
     if any(_lost(runs)):
         note += (
-            " “After” is after the first loss, where the linear model lets the ground pull. A "
-            "number from there is no force of the real robot, and how far it is from zero says "
-            "nothing: the table gives only its sign."
+            " “After” is after the first loss, where the linear model lets the ground pull. What "
+            "it finds there is no force of the real robot: the table gives only its sign."
         )
     return note
 

@@ -147,8 +147,8 @@ export function makePlayer({ root, box, stage, bar }, facts, model, shown, { set
       moment.setAttribute("aria-valuetext", `t = ${unit(now.t, "s")}${event ? `, ${event.words}` : ""}`);
       if (scale) {
         const [fit, same] = scale.options;
-        write(fit, `${pace("fit")}: ${SECONDS}\u00a0s a run`);
-        write(same, `${pace("same")}: every run`);
+        write(fit, `${SECONDS}\u00a0s: ${pace("fit")}`);
+        write(same, `always ${pace("same")}`);
         scale.value = model.get("pace");
         scale.disabled = calm.matches; // nothing plays
       }
