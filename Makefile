@@ -1,8 +1,9 @@
 # make book | pdf | quick | test | mutants | lab | notebooks | students | solutions | bench | requirements | clean
 # Needs Python 3.11, 3.12, 3.13 or 3.14 and nothing else.
 
-PYTHON ?= $(firstword $(foreach name,python3 python3.14 python3.13 python3.12 python3.11,$(shell \
-    $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 15) and print('$(name)')" 2>/dev/null)))
+# Looked for when it is first needed, and once.
+PYTHON ?= $(eval PYTHON := $(firstword $(foreach name,python3 python3.14 python3.13 python3.12 python3.11,$(shell \
+    $(name) -c "import sys; (3, 11) <= sys.version_info < (3, 15) and print('$(name)')" 2>/dev/null))))$(PYTHON)
 BIN := .venv/bin
 VENV := .venv/.installed
 PEERS := .venv/bench/.installed

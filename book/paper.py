@@ -20,7 +20,10 @@ HTML = ROOT / "_build" / "html"
 PDF = ROOT / "_build" / "pdf"
 ANSWERS = "book/answers"
 NEXT = re.compile(r'<link rel="next"[^>]*href="([^"#]+)')
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+BROWSERS = (
+    *("chromium-headless-shell", "chromium", "chromium-browser"),
+    *("google-chrome", "google-chrome-stable"),
+)
 MARGINS = {"top": "16mm", "bottom": "18mm", "left": "20mm", "right": "20mm"}
 LONG = 25  # rows: a longer table begins where it stands, and goes on overleaf
 FOOT = """<div style="font: 8pt sans-serif; width: 100%; text-align: center; color: #444">

@@ -8,16 +8,16 @@ import pytest
 from helpers import ROOT, find_chromium, serve_files, start_chromium
 from xdist.scheduler import LoadFileScheduling
 
-# Files of which each data set is computed by itself, for a minute or so.
-BY_DATA = re.compile(r"(.*/test_other_data\.py)::.*?\[(\w+)")
+# Of these each data set is computed by itself, for a minute or so, and each page loaded by itself.
+APART = re.compile(r"(.*/test_(?:other_data|pages)\.py)::.*?\[([\w/]+)")
 
 
 class ByFile(LoadFileScheduling):
-    """A file's tests stay in one process, but for those of different data sets."""
+    """A file's tests stay in one process, but for those of different data sets, or pages."""
 
     def _split_scope(self, nodeid):
-        by_data = BY_DATA.match(nodeid)
-        return "::".join(by_data.groups()) if by_data else super()._split_scope(nodeid)
+        apart = APART.match(nodeid)
+        return "::".join(apart.groups()) if apart else super()._split_scope(nodeid)
 
 
 @pytest.hookimpl(optionalhook=True)

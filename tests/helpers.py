@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 AXE = ROOT / "book" / "npm" / "node_modules" / "axe-core" / "axe.min.js"
 PARITY = 1e-9  # how closely the explorer's page follows `simulate`
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+SHELL = "chromium-headless-shell"  # the same without windows, settings and half of the work
 FLAGS = (
     "--no-sandbox",
     "--disable-gpu",
@@ -138,10 +139,16 @@ class QuietHandler(SimpleHTTPRequestHandler):
         """Say nothing."""
 
 
+class PatientServer(ThreadingHTTPServer):
+    """A server that turns nobody away: who is comes again, but seconds later."""
+
+    request_queue_size = 128
+
+
 @contextmanager
 def serve_files(folder):
     """Serve a folder on this machine; its address, ending in a slash."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=folder))
+    server = PatientServer(("127.0.0.1", 0), partial(QuietHandler, directory=folder))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         yield f"http://127.0.0.1:{server.server_port}/"
@@ -163,9 +170,10 @@ def windows_locale(folder):
     return own | {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 
 
-def find_chromium():
-    """Path of the system's Chromium, or None."""
-    return next(filter(None, map(shutil.which, BROWSERS)), None)
+def find_chromium(*, whole=False):
+    """Path of the system's Chromium, or None; the `whole` one has a reader's settings."""
+    names = BROWSERS if whole else (SHELL, *BROWSERS)
+    return next(filter(None, map(shutil.which, names)), None)
 
 
 @contextmanager

@@ -72,6 +72,17 @@ def stop(server):
         server.wait()
 
 
+def wait_until_idle(tab):
+    """Wait until a kernel has had nothing to do for two seconds: between two cells it has not."""
+    idle, calm = tab.get_by_text("(ipykernel) | Idle"), 0
+    for _ in range(240):
+        tab.wait_for_timeout(500)
+        calm = calm + 1 if idle.count() else 0
+        if calm == 4:
+            return
+    raise AssertionError("the kernel is busy still")
+
+
 def run_all(tab, address, notebook, alive=".suspension-explorer-box.se-live"):
     """Open a notebook alone, run all its cells, and wait for the explorer, or another picture."""
     tab.goto(f"{address}lab/tree/{notebook}?reset")

@@ -1,4 +1,4 @@
-"""The book with other spring data: every number, verdict and sentence follows.
+"""The book with other spring data and another robot: every number, verdict and sentence follows.
 
 All code of the notebooks runs with them (`displays`), and what a reader would read is put together
 from text and outputs, without the pages around it: that pages can be made of these is tested with
@@ -6,7 +6,9 @@ the data that the book ships with. The words for other springs still are tested 
 `tests/unit/test_report_*.py`.
 """
 
+import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,12 +16,13 @@ import nbformat
 import numpy as np
 import pytest
 import scipy.io
-from cases import loading_and_unloading, readings
+from cases import faults, loading_and_unloading, readings
 from displays import run_apart
 from helpers import PAGES, ROOT, windows_locale
 
-from suspension import RK4, GaussianBump, Robot, margin
+from suspension import RK4, GaussianBump, Robot, critical_speeds, margin
 from suspension.problem import SPEEDS, STEPS
+from suspension.report.words import number
 from suspension.springs import fit_spring, load_spring_data
 
 NOTEBOOKS = sorted(ROOT.glob("notebooks/*.ipynb"))
@@ -40,6 +43,9 @@ LINK = re.compile(r"\]\(([^)\s]*)\)")
 QUOTED = re.compile(r"\{result\}`?\s?([\w-]+)")
 
 
+ALONG = {"m": 2.0, "L1": 0.12, "L2": 0.095, "c2": 2.2}
+
+
 # --- the data ---------------------------------------------------------------------------------
 
 
@@ -51,7 +57,9 @@ def soft_spring(folder):
 
 
 def curved_spring(folder):
-    """A preload and a curvature that no test for linearity can miss, in the course's format."""
+    """A preload and a curvature that no test for linearity can miss, in the course's format; and
+    from Part IV on a robot that is not symmetric."""
+    (folder / "robot.json").write_text(json.dumps(ALONG), encoding="utf-8")
     data = readings(667, preload=1.5, curvature=4, points=22)
     scipy.io.savemat(folder / "spring_data.mat", {name: data[name].to_numpy() for name in data})
 
@@ -97,17 +105,23 @@ class Book(NamedTuple):
     ----------
     pages : dict of str to str
         Text and outputs, without code and formulas, by the notebook's name.
+    shown : dict of str to list of dict
+        What was displayed in each notebook, by MIME type.
     results : dict of str to list of str
         What was shown under a name, as often as it was.
     links : dict of str to list of str
         Where the computed sentences of a notebook lead.
+    along : dict
+        What else the robot of Part IV and further has than the problem's.
     """
 
     name: str
     pages: dict
+    shown: dict
     results: dict
     links: dict
     data: object
+    along: dict
 
     @property
     def fit(self):
@@ -115,6 +129,7 @@ class Book(NamedTuple):
 
     @property
     def robot(self):
+        """That of Parts II and III, which have a cell of parameters."""
         k = self.fit.stiffness
         return Robot(k, k)
 
@@ -160,13 +175,14 @@ def other_book(request, tmp_path_factory):
     make = request.param
     folder = tmp_path_factory.mktemp(make.__name__)
     make(folder)
-    (file,) = folder.iterdir()
+    (file,) = folder.glob("spring_data.*")
     system = windows_locale(tmp_path_factory.mktemp("locale"))
     paths = [path for path in NOTEBOOKS if not PARTS[make] or path.stem in PARTS[make]]
     displayed = run_apart(folder, paths, **system)
-    pages, results, links = {}, {}, {}
+    pages, shown, results, links = {}, {}, {}, {}
     for path in paths:
         outputs = displayed[path.stem]
+        shown[path.stem] = [output["data"] for cell in outputs.values() for output in cell]
         whole, computed = [], []
         for cell in nbformat.read(path, as_version=4).cells:
             if cell.cell_type == "markdown":
@@ -178,7 +194,8 @@ def other_book(request, tmp_path_factory):
                     results.setdefault(name, []).append(output["data"].get("text/markdown", ""))
         pages[path.stem] = read("\n\n".join(whole))
         links[path.stem] = LINK.findall("\n".join(computed))
-    return Book(make.__name__, pages, results, links, load_spring_data(file))
+    along = ALONG if (folder / "robot.json").exists() else {}
+    return Book(make.__name__, pages, shown, results, links, load_spring_data(file), along)
 
 
 @pytest.fixture(scope="module")
@@ -291,3 +308,42 @@ def test_only_unstable_runs_are_called_unstable(whole_book):
     limit = RK4.max_stable_dt(whole_book.robot.eigenvalues)
     called = dict(re.findall(r"\| ([\d.]+) \| (unstable|stable) \|", whole_book.answer("9(iii)")))
     assert called == {f"{dt:g}": "unstable" if dt > limit else "stable" for dt in STEPS}
+
+
+# --- what it says of another robot ------------------------------------------------------------
+
+
+def test_nothing_computed_has_a_fault(whole_book):
+    for shown in whole_book.shown.values():
+        said = [data.get("text/markdown", "") for data in shown]
+        assert not [fault for text in said for fault in faults(text)]
+        plain = [data.get("text/plain", "") for data in shown]
+        assert not [text for text in plain if re.search(r"\bFalse\b|\bnan\b", text)]
+
+
+def test_a_part_of_the_twin_says_so(whole_book):
+    robot = replace(whole_book.robot, **whole_book.along)
+    length = f"$L$ = {number((robot.L1 + robot.L2) / 2)}"
+    code = {path.stem: path.read_text(encoding="utf-8") for path in NOTEBOOKS}
+    asked = {part for part, text in code.items() if "the_robot().twin, " in text}
+    noted = {
+        part
+        for part, shown in whole_book.shown.items()
+        for data in shown
+        if "symmetric twin" in data.get("text/markdown", "") and length in data["text/markdown"]
+    }
+    assert asked
+    if whole_book.along:
+        assert asked <= noted <= {part for part, text in code.items() if ".twin" in text}
+    else:
+        assert not noted
+
+
+def test_the_verdict_beyond_is_that_of_the_robot(whole_book):
+    robot = replace(whole_book.robot, **whole_book.along)
+    (text,) = whole_book.results["critical-verdict"]
+    found = critical_speeds(robot, GaussianBump(), 0.3, 30)
+    assert all(number(v) in text for v in found)
+    if whole_book.along:
+        twins = critical_speeds(whole_book.robot, GaussianBump(), 0.3, 30)
+        assert len(found) and not all(number(v) in text for v in twins)

@@ -1,25 +1,24 @@
-"""Each part is that of any robot it is given, Parts II and III also of their road and speeds."""
+"""Parts II and III are those of any robot, road and speeds that their cell of parameters has.
+
+The other parts for another robot are in `test_other_data.py`.
+"""
 
 import ast
 import contextlib
 import io
-import json
 import linecache
 import re
-import shutil
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import matplotlib.pyplot as plt
 import nbformat
 import numpy as np
 import pytest
 from cases import faults
-from displays import run_apart
 from helpers import ROOT
 from listings import numbers, printed_by
 
-from suspension import _readings, course
-from suspension.contact import critical_speeds, normal_forces
+from suspension.contact import normal_forces
 from suspension.exact import over_bump
 from suspension.report import show
 from suspension.report.words import count, number, speed_list
@@ -215,68 +214,3 @@ def test_another_road_in_its_cell_changes_the_answers(part, item):
     assert "lost at none of the four speeds" in page.answer(item)
     assert not [text for text in page.outputs if "False" in text]
     assert not [fault for text in page.texts for fault in faults(text)]
-
-
-# --- the parts beyond the ten answers, for one robot that is not symmetric ---------------------
-
-ALONG = {"m": 2.0, "L1": 0.12, "L2": 0.095, "c2": 2.2}
-BEYOND = [
-    path
-    for path in sorted(ROOT.glob("notebooks/*.ipynb"))
-    if "course.the_robot()" in path.read_text(encoding="utf-8") and path.stem > "04"
-]
-
-
-@pytest.fixture(scope="module")
-def beyond(tmp_path_factory):
-    """What these parts display for such a robot, by name and cell."""
-    folder = tmp_path_factory.mktemp("lopsided")
-    shutil.copy(_readings.shipped("spring_data.csv"), folder / "spring_data.csv")
-    (folder / "robot.json").write_text(json.dumps(ALONG), encoding="utf-8")
-    return run_apart(folder, BEYOND)
-
-
-def said(displayed):
-    """Markdown that was shown, by the name under which other pages quote it, if it has one."""
-    for outputs in displayed.values():
-        for output in outputs:
-            name = output["metadata"].get("scrapbook", {}).get("name")
-            yield name, output["data"].get("text/markdown", "")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("part", [path.stem for path in BEYOND])
-def test_a_part_beyond_runs_for_an_unsymmetric_robot(beyond, part):
-    shown = list(said(beyond[part]))
-    assert not [fault for _, text in shown for fault in faults(text)]
-    plain = [out["data"].get("text/plain", "") for all_ in beyond[part].values() for out in all_]
-    assert not [text for text in plain if re.search(r"\bFalse\b|\bnan\b", text)]
-
-
-@pytest.mark.slow
-def test_a_part_of_the_twin_says_so(beyond):
-    mean = number((ALONG["L1"] + ALONG["L2"]) / 2)
-    code = {path.stem: path.read_text(encoding="utf-8") for path in BEYOND}
-    asked = {part for part, text in code.items() if "the_robot().twin, " in text}
-    noted = {
-        part
-        for part, displayed in beyond.items()
-        for _, text in said(displayed)
-        if "symmetric twin" in text and f"$L$ = {mean}" in text
-    }
-    assert asked and asked <= noted <= {part for part, text in code.items() if ".twin" in text}
-
-
-@pytest.mark.slow
-def test_the_verdict_beyond_is_the_unsymmetric_robots(beyond):
-    robot = replace(course.the_robot(), **ALONG)
-    (text,) = [
-        text
-        for shown in beyond.values()
-        for name, text in said(shown)
-        if name == "critical-verdict"
-    ]
-    found = critical_speeds(robot, course.Hgauss, 0.3, 30)
-    ours = critical_speeds(course.the_robot(), course.Hgauss, 0.3, 30)
-    assert len(found) and all(number(v) in text for v in found)
-    assert not all(number(v) in text for v in ours)

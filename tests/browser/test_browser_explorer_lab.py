@@ -25,7 +25,7 @@ from explorers import (
 )
 from helpers import PARITY, ROOT, swipe
 from instruments import settle, write_notebook
-from lab import run_all, serve
+from lab import run_all, serve, wait_until_idle
 from nbformat.v4 import new_markdown_cell, new_notebook
 
 LAB_CELLS = [
@@ -173,7 +173,7 @@ def pull(tab, name, nth=0, way=40):
     return [*seen, value()]
 
 
-@pytest.mark.parametrize("name", ["02-crank-nicolson", "03-runge-kutta", "12-drive"])
+@pytest.mark.parametrize("name", ["02-crank-nicolson", "12-drive"])
 def test_by_mouse_in_jupyterlab(browser, lab, name):
     """Every slider has a track, a whole label, a picture in sight, and comes back where it was."""
     tab = browser.new_page(viewport=WIDE)
@@ -314,8 +314,8 @@ def test_a_notebook_opens_unchanged_saves_clean_and_keeps_its_pictures(browser, 
     before = file.read_text(encoding="utf-8")
     tab = browser.new_page(viewport=WIDE)
     tab.goto(f"{address}lab/tree/notebooks/12-drive.ipynb?reset")
-    tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
-    tab.wait_for_timeout(3000)
+    wait_until_idle(tab)
+    tab.wait_for_timeout(1000)
     assert tab.locator(".jp-mod-dirty").count() == 0
     picture = tab.locator(".jp-OutputArea-output.jp-RenderedSVG").first
     assert picture.bounding_box()["height"] > 200
@@ -323,8 +323,7 @@ def test_a_notebook_opens_unchanged_saves_clean_and_keeps_its_pictures(browser, 
         "e => decodeURIComponent(e.src ?? e.outerHTML)"
     )
     run_all(tab, address, "notebooks/12-drive.ipynb")
-    tab.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
-    tab.wait_for_timeout(2000)
+    wait_until_idle(tab)
     save(tab)
     assert "widget-view" not in file.read_text(encoding="utf-8")
     old, new = json.loads(before), json.loads(file.read_text(encoding="utf-8"))

@@ -6,12 +6,11 @@ A page is loaded once, and all that can be asked of it on a desk is asked there.
 import gzip
 import re
 from functools import partial
-from http.server import ThreadingHTTPServer
 from threading import Thread
 from urllib.parse import urlsplit
 
 import pytest
-from helpers import AXE, PAGES, ROOT, QuietHandler, violations
+from helpers import AXE, PAGES, ROOT, PatientServer, QuietHandler, violations
 
 KILOBYTES = 350  # gzipped, of a page without an explorer
 REQUESTS = 20
@@ -56,7 +55,7 @@ class StrictHandler(QuietHandler):
 @pytest.fixture(scope="module")
 def strict_site(book):
     """Address of the book on a server with the policy."""
-    with ThreadingHTTPServer(("127.0.0.1", 0), partial(StrictHandler, directory=book)) as server:
+    with PatientServer(("127.0.0.1", 0), partial(StrictHandler, directory=book)) as server:
         Thread(target=server.serve_forever, daemon=True).start()
         yield f"http://127.0.0.1:{server.server_port}/"
         server.shutdown()
