@@ -394,19 +394,20 @@ def test_a_finger_that_scrolls_turns_nothing(visit):
     tab = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     sliders = tab.locator(f"{BOX} input[type=range]")
     assert sliders.count() == 7
-    for nth in range(7):
-        sliders.nth(nth).evaluate("e => e.scrollIntoView({ block: 'center' })")
+
+    def place(slider):
+        slider.evaluate("e => e.scrollIntoView({ block: 'center' })")
         tab.wait_for_timeout(200)
-        box, value = sliders.nth(nth).bounding_box(), sliders.nth(nth).input_value()
-        x, y = box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2
-        height = tab.evaluate("scrollY")
+        box = slider.bounding_box()
+        return box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2
+
+    for slider in sliders.all():
+        (x, y), value, height = place(slider), slider.input_value(), tab.evaluate("scrollY")
         swipe(tab, x, y, 5, -150)
         assert tab.evaluate("scrollY") > height + 60
-        assert sliders.nth(nth).input_value() == value
-        tab.evaluate("height => scrollTo(0, height)", height)
-        tab.wait_for_timeout(200)
-        swipe(tab, x, y, 50, 3)
-        assert sliders.nth(nth).input_value() != value
+        assert slider.input_value() == value
+        swipe(tab, *place(slider), 50, 3)
+        assert slider.input_value() != value
 
 
 def test_letters_twice_as_large_leave_room_for_everything(visit):
