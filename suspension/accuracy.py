@@ -64,6 +64,12 @@ def errors(robot, bump, *, v, dt, scheme, tfinal=None, distance=None):
     -------
     Errors
         The run's loss of contact is where a cubic spline through its forces crosses zero.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or `suspension.simulation.simulate` or
+        `suspension.margin` refuses the run.
     """
     _checks.instance("bump", bump, GaussianBump)
     v = _checks.positive("v", v)
@@ -103,6 +109,13 @@ def evaluations(scheme, J):
     So a step of Crank-Nicolson, whose second stage is the first one of the next step, counts as
     one new evaluation (and one linear system to solve), RK4's as four, Euler's as one.
 
+    Raises
+    ------
+    ValueError
+        If `J` is no whole number >= 0.
+
+    Examples
+    --------
     >>> from suspension.schemes import CRANK_NICOLSON, RK4
     >>> evaluations(CRANK_NICOLSON, 100), evaluations(RK4, 100)
     (101, 400)
@@ -134,6 +147,11 @@ def seen_mode(scheme, lam, dts):
     -------
     seen : ndarray of complex, shape (n,)
         1/s.
+
+    Raises
+    ------
+    ValueError
+        If a time step is not > 0.
     """
     _checks.instance("scheme", scheme, Scheme)
     dts = _steps(dts)
@@ -182,6 +200,12 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
     -------
     evaluations, errors : ndarray, shape (len(tolerances),)
         Right-hand sides evaluated, and the error at 201 times in N.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, `suspension.least_force.distance_over` or SciPy refuses,
+        or more than 10^5 samples would be needed to follow the swings of the modes.
     """
     tfinal = _duration(robot, bump, v, distance)
     T = np.linspace(0, tfinal, 201)
@@ -267,6 +291,11 @@ def just_lost(robot, bump, critical, n=40, *, distance=None):
     v : ndarray, shape (n,)
         In order, m/s; those at which contact is kept (because another critical speed is near) are
         left out, and without a critical speed there are none.
+
+    Raises
+    ------
+    ValueError
+        If `n` is no whole number >= 1, a speed is not > 0, or `suspension.margin` refuses.
     """
     n = _checks.whole("n", n, 1)
     critical = _checks.array("critical", critical, (None,))
@@ -312,6 +341,13 @@ def fitted_order(dts, errors):
     order : float
         nan if fewer than two errors are left.
 
+    Raises
+    ------
+    ValueError
+        If a time step is not > 0, or there is not one error for each.
+
+    Examples
+    --------
     >>> round(fitted_order([0.1, 0.05, 0.025], [np.nan, 1e-2, 2.5e-3]), 12)
     2.0
     """
@@ -353,6 +389,14 @@ def flight_errors(robot, road, *, v, tfinal, steps):
     blind, located : ndarray, shape (len(steps),)
         Largest error of a state component relative to its largest value in the run: for steps
         that ignore the switches, and for steps fitted between them.
+
+    Raises
+    ------
+    ValueError
+        If a number of steps is no whole number >= 1 or more than 10^8, or `suspension.flight.fly`
+        refuses the run.
+    RuntimeError
+        As `suspension.flight.fly` does.
     """
     steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)

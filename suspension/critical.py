@@ -163,6 +163,11 @@ def zeros(f, x):
     -------
     zeros : ndarray
         In order, between x[0] and x[-1].
+
+    Raises
+    ------
+    ValueError
+        If `x` is not finite or has another shape.
     """
     x = _checks.array("x", x, (None,))
     y = np.array([f(s) for s in x])

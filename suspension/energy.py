@@ -63,6 +63,13 @@ def energy(flight, robot, road):
     Returns
     -------
     Energy
+
+    Raises
+    ------
+    ValueError
+        If the road returns another shape than it was given, or a value that is not finite.
+    TypeError
+        If `flight` is not a Flight, `robot` not a Robot, or `road` not a function.
     """
     _checks.instance("flight", flight, Flight)
     _checks.instance("robot", robot, Robot)
@@ -84,7 +91,7 @@ def energy(flight, robot, road):
 def landings(flight, robot, road):
     """Every landing of a flight, what it passes on and what it costs.
 
-    Parameters are those of `energy`.
+    Parameters and errors are those of `energy`.
 
     Returns
     -------

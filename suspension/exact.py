@@ -130,7 +130,7 @@ class Crossing:
     where ``memory = height sqrt(pi) sigma / (sqrt(2) |v|) bump_memory(xi)`` is what the mode
     remembers of the bump, from infinitely far.
 
-    Parameters are those of `over_bump`.
+    Parameters and errors are those of `over_bump`, but a motion that overflows is not refused.
 
     Attributes
     ----------
@@ -194,7 +194,13 @@ class Crossing:
 
 
 def times(t):
-    """Return `t` as an array of finite numbers >= 0."""
+    """Return `t` as an array of finite numbers >= 0.
+
+    Raises
+    ------
+    ValueError
+        If a time is negative or not finite.
+    """
     t = _checks.array("t", t)
     if (t < 0).any():
         raise ValueError(f"t must be >= 0, got {t.min()}")

@@ -104,6 +104,11 @@ class Flight:
         """Time in s from which both forces stay within `fraction` of those at rest.
 
         nan if they have not settled before the run ends.
+
+        Raises
+        ------
+        ValueError
+            If `fraction` is no finite number >= 0.
         """
         _checks.instance("robot", robot, Robot)
         fraction = _checks.nonnegative("fraction", fraction)
@@ -296,8 +301,15 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0, end=None):
     """Return ``gfunc(w, t, v) -> (wdot, N1, N2)``, as `suspension.course.make_gfunc` does.
 
     The forces are those of "follows", told from the state alone, for a method that looks for no
-    switch. With `pressing` they are those of one leg of a `Flight`, and t counts from its `start`;
-    with its `end` as well, a kink of the road there is seen from inside.
+    switch. With `pressing`, two bools, they are those of one leg of a `Flight`, and t counts from
+    its `start`, s; with its `end` as well, a kink of the road there is seen from inside.
+
+    Raises
+    ------
+    ValueError
+        If `start` is no finite number, `end` is none or not later, `pressing` does not hold two, or
+        the road returns another shape than it was given, or what is not finite; and from the
+        returned function, if t or v is no finite number, or the road returns such a thing.
     """
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")

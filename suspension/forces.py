@@ -41,6 +41,12 @@ def normal_forces(robot: Robot, road: Road, v: float, T: ArrayLike, W: ArrayLike
     N : ndarray, shape (2, J+1)
         Rear and front normal force, N. Where it is <= 0 the wheel has lost the ground and the
         linear model no longer holds.
+
+    Raises
+    ------
+    ValueError
+        If `v` or a time is not finite, `W` has not the shape (4, J+1), or the road returns another
+        shape than it was given, or a value that is not finite.
     """
     _checks.instance("robot", robot, Robot)
     T = _checks.array("T", T, (None,))

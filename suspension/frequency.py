@@ -118,6 +118,13 @@ def steady_start(robot, road, v):
     road : RoughRoad
     v : float
         Speed, m/s.
+
+    Raises
+    ------
+    ValueError
+        As `response` does.
+    TypeError
+        If `road` is not a RoughRoad.
     """
     _checks.instance("road", road, RoughRoad)
     W = response(robot, v, road.wavenumbers).state
@@ -139,6 +146,13 @@ def rms(robot, road, v):
     Returns
     -------
     Spread
+
+    Raises
+    ------
+    ValueError
+        As `response` does, or if the road is so rough that a mean square is no number.
+    TypeError
+        If `road` is not a RoughRoad.
     """
     _checks.instance("road", road, RoughRoad)
     with np.errstate(over="ignore"):  # told by name
@@ -238,6 +252,11 @@ def speed_in_step(robot):
     """The speed at which one heave period passes between the wheels, m/s; None without a swing.
 
     There the rear wheel meets what the front wheel met in step with the heave that it left behind.
+
+    Raises
+    ------
+    TypeError
+        If `robot` is not a Robot.
 
     Examples
     --------

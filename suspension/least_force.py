@@ -162,7 +162,7 @@ def _round_up(x):
 def minima(robot, bump, v, tfinal=None, *, distance=None):
     """The least normal force of each wheel on the way over the bump, rear before front.
 
-    Parameters are those of `margin`.
+    Parameters and errors are those of `margin`.
 
     Returns
     -------
@@ -234,7 +234,14 @@ def _joined(parts):
 
 
 def duration(robot, bump, v, tfinal=None, distance=None):
-    """How long a run at speed `v` lasts, s: until `tfinal` if given, else over `distance`."""
+    """How long a run at speed `v` lasts, s: until `tfinal` if given, else over `distance`.
+
+    Raises
+    ------
+    ValueError
+        If `tfinal` and `distance` are both given, `tfinal` is no finite number > 0, or, without it,
+        `distance_over` refuses.
+    """
     if tfinal is None:
         return distance_over(robot, bump, distance) / v
     if distance is not None:

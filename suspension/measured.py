@@ -56,6 +56,12 @@ def zero_speeds(robot, law, road, v, *, zooms=1, geometry="small"):
         In order, m/s.
     margins : ndarray, shape (n,)
         At the samples, on a ground that pulls, N.
+
+    Raises
+    ------
+    ValueError
+        If `v` are not two speeds or more, > 0 and in order, there are several laws, `zooms` is out
+        of its range, or `suspension.sweep.drive` refuses the runs.
     """
     v = _in_order("v", v)
     one_law(law)
@@ -82,6 +88,12 @@ def zero_stops(robot, law, road, v, stops, *, zooms=2):
         In order, N/m.
     margins : ndarray, shape (n,)
         At the samples, on a ground that pulls, N.
+
+    Raises
+    ------
+    ValueError
+        If `stops` are not two numbers or more, > 0 and in order, there are several laws, `v` or
+        `zooms` is out of its range, or `suspension.sweep.drive` refuses the runs.
     """
     stops = _in_order("stops", stops)
     one_law(law)
@@ -157,6 +169,12 @@ def joint_draws(fit, n=128, seed=2086):
     -------
     beta : ndarray, shape (3, n)
         N. Some need not be those of a spring that grows.
+
+    Raises
+    ------
+    ValueError
+        If `n` is no power of two from 2 to 65536, `seed` no whole number >= 0, or the fit is one of
+        three readings, which leave no error to draw from.
     """
     _checks.instance("fit", fit, SpringFit)
     n, seed = _checks.whole("n", n, 2), _checks.whole("seed", seed, 0)
@@ -187,6 +205,12 @@ def follow_speed(robot, law, road, v):
     -------
     speeds : ndarray, shape (n,)
         m/s; nan where the margin has one sign at nine speeds up to a factor 1.3 to both sides.
+
+    Raises
+    ------
+    ValueError
+        If `v` is no finite number > 0, `law` is not a row of laws, or `suspension.sweep.drive`
+        refuses the runs.
     """
     return follow_speeds(robot, law, road, [_checks.positive("v", v)])[0]
 
@@ -205,6 +229,11 @@ def follow_speeds(robot, law, road, v):
     -------
     speeds : ndarray, shape (m, n)
         m/s, or nan, as in `follow_speed`.
+
+    Raises
+    ------
+    ValueError
+        As `follow_speed` does, or if `v` has another shape.
     """
     _checks.instance("law", law, SpringLaw)
     if len(law.shape) != 1:

@@ -117,6 +117,13 @@ class RoadProfile:
         ``"linear"``, for corners of a trapezoid or a ramp: straight lines, whose slope jumps at the
         points, and with it the force of a damper.
 
+    Raises
+    ------
+    ValueError
+        If a number is not finite, there are fewer than two points or not a height for each, or the
+        positions do not increase; if they span 10^9 m or a slope reaches 10^6, as with mistaken
+        units; or if `kind` is none of these.
+
     Examples
     --------
     >>> ramp = RoadProfile([0, 0.1], [0, 0.01], kind="linear")
@@ -209,6 +216,11 @@ class RoadProfile:
         -------
         a : ndarray, shape (4, n)
             ``H = a[0] + a[1] s + a[2] s^2 + a[3] s^3`` with s the distance from `start`, m.
+
+        Raises
+        ------
+        ValueError
+            If a position is not finite, or `x` and `start` have not the shape (n,).
         """
         x, start = _checks.array("x", x, (None,)), _checks.array("start", start, (None,))
         height, _ = self._pieces
@@ -252,6 +264,11 @@ class RoughRoad:
         Its shortest wave, m, > 0, at most `length`, of which it may be a 10^4th.
     seed : int
         Which of all such roads, >= 0.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of its range, or so large that heights are not finite.
 
     Examples
     --------
@@ -377,6 +394,11 @@ def under_wheels(robot, road, X):
     -------
     H, dHdx : ndarray, shape (2, n) or (2,)
         Height in m and slope, rear wheel before front.
+
+    Raises
+    ------
+    ValueError
+        As `profile` does.
     """
     x = np.add.outer(robot.arms, X)
     H, dHdx = profile(road, x.ravel())
@@ -384,7 +406,28 @@ def under_wheels(robot, road, X):
 
 
 def profile(road, x):
-    """Height and slope of a road at `x`, checked: finite, and of the shape of `x`."""
+    """Height and slope of a road at `x`, checked: finite, and of the shape of `x`.
+
+    Parameters
+    ----------
+    road : callable
+        ``road(x) -> (H, dHdx)``.
+    x : ndarray
+        Positions, m, any shape.
+
+    Returns
+    -------
+    H, dHdx : ndarray, of the shape of `x`
+        Height in m and slope.
+
+    Raises
+    ------
+    ValueError
+        If the road returns no pair of arrays of numbers, another shape than it was given, or a
+        value that is not finite: the place is told.
+    TypeError
+        If `road` is not a function.
+    """
     value = _checks.function("road", road, "road(x) -> (H, dHdx)")(x)
     try:
         H, dHdx = value

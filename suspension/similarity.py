@@ -132,6 +132,13 @@ def natural_units(groups: Groups) -> tuple[Robot, GaussianBump, float]:
         It begins eight sigma ahead of the front wheel.
     v : float
 
+    Raises
+    ------
+    ValueError
+        If a group is out of its range or not finite, or so extreme that Izz is no number > 0.
+    TypeError
+        If `groups` is not a Groups.
+
     Examples
     --------
     >>> robot, bump, v = natural_units(Groups(nu=2, zeta=0.1, eta=3, j=1, lam=4))
@@ -162,6 +169,11 @@ def way(robot, bump, v, swings=8):
     Returns
     -------
     distance : float or ndarray of the shape of `v`
+
+    Raises
+    ------
+    ValueError
+        If a speed is not > 0, or `swings` no finite number >= 0.
     """
     _checks.instance("robot", robot, Robot)
     _checks.instance("bump", bump, GaussianBump)
@@ -268,6 +280,16 @@ def follow(nu, j):
         Speed ``v / (sigma omega0)``, > 0.
     j : float
         Inertia ``Izz / (m L^2)``, > 0.
+
+    Returns
+    -------
+    eta : float or ndarray of the shape of `nu`
+        Height of the bump over the sag.
+
+    Raises
+    ------
+    ValueError
+        If `j` or a `nu` is not > 0.
     """
     return 2 / ((1 + _checks.positive("j", j)) * _positive("nu", nu)[()] ** 2)
 
@@ -285,6 +307,16 @@ def throw(nu):
     ----------
     nu : array_like
         Speed ``v / (sigma omega0)``, > 0.
+
+    Returns
+    -------
+    eta : float or ndarray of the shape of `nu`
+        Height of the bump over the sag.
+
+    Raises
+    ------
+    ValueError
+        If a `nu` is not > 0.
     """
     return _positive("nu", nu)[()] / np.sqrt(2 * np.pi)
 
@@ -301,6 +333,16 @@ def skim(nu, zeta):
         Speed ``v / (sigma omega0)``, > 0.
     zeta : float
         Damping ``c / sqrt(2 k m)``, > 0.
+
+    Returns
+    -------
+    eta : float or ndarray of the shape of `nu`
+        Height of the bump over the sag.
+
+    Raises
+    ------
+    ValueError
+        If `zeta` or a `nu` is not > 0.
     """
     return np.sqrt(np.e) / (2 * _checks.positive("zeta", zeta) * _positive("nu", nu)[()])
 
@@ -319,6 +361,16 @@ def still(nu, zeta):
         Speed ``v / (sigma omega0)``, > 0.
     zeta : float
         Damping ``c / sqrt(2 k m)``, > 0.
+
+    Returns
+    -------
+    eta : float or ndarray of the shape of `nu`
+        Height of the bump over the sag; inf at speeds so low that no number tells it.
+
+    Raises
+    ------
+    ValueError
+        If `zeta` or a `nu` is not > 0.
     """
     with np.errstate(over="ignore"):  # so low a speed that no number tells the height
         return np.exp(_log_still(2 * _checks.positive("zeta", zeta) * _positive("nu", nu)[()]))
@@ -349,6 +401,16 @@ def comb(nu, j, lam):
         Speed ``v / (sigma omega0)``, > 0.
     j, lam : float
         Inertia ``Izz / (m L^2)`` and wheelbase ``L / sigma``, > 0.
+
+    Returns
+    -------
+    eta : float or ndarray of the shape of `nu`
+        Height of the bump over the sag; inf at speeds so low that no number tells it.
+
+    Raises
+    ------
+    ValueError
+        If `j`, `lam` or a `nu` is not > 0.
     """
     nu = _positive("nu", nu)[()]
     j, lam = _checks.positive("j", j), _checks.positive("lam", lam)
@@ -370,6 +432,11 @@ def window_limit(zeta):
     -------
     nu, eta : float
         Speed and height, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If `zeta` is not > 0, or so extreme that the search overflows.
     """
     zeta = _checks.positive("zeta", zeta)
 
@@ -390,6 +457,16 @@ def closing_limit(eta):
     ----------
     eta : float
         Height of the bump over the sag, > 0.
+
+    Returns
+    -------
+    zeta : float
+        Damping ``c / sqrt(2 k m)``.
+
+    Raises
+    ------
+    ValueError
+        If `eta` is not > 0, or so extreme that the search overflows.
     """
     eta = _checks.positive("eta", eta)
     far = 10 + abs(np.log(eta))
@@ -415,6 +492,11 @@ def window(robot, bump, vmin, vmax, *, distance=None):
         None if no speed loses contact, or none beyond the slowest that does is safer. The window is
         open, the bump itself is crossed there with contact, if its height is more than the bump's.
         It is found among speeds 3 % apart, then to roundoff.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or `highest_bump` refuses.
     """
     vmin, vmax = _checks.ends("vmin", vmin, "vmax", vmax)
     if not (distance is None or callable(distance)):

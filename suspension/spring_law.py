@@ -83,7 +83,21 @@ class SpringLaw:
 
     @classmethod
     def of(cls, fit, stop=0.0):
-        """The law of a fit: its parabola, with a stop of so many N/m."""
+        """The law of a fit: its parabola, with a stop of so many N/m.
+
+        Parameters
+        ----------
+        fit : SpringFit
+        stop : array_like, shape () or (n,)
+            Stiffness of the stop, N/m, >= 0; 0 is none.
+
+        Raises
+        ------
+        ValueError
+            If a stop is not finite or < 0, or the fitted force does not grow up to `delta_max`.
+        TypeError
+            If `fit` is not a SpringFit.
+        """
         _checks.instance("fit", fit, SpringFit)
         return cls(*fit.beta, fit.delta_max, stop)
 
@@ -157,6 +171,11 @@ def rest(robot, law):
     Returns
     -------
     w : ndarray, shape (4,) or (4, n)
+
+    Raises
+    ------
+    TypeError
+        If `robot` is not a Robot, or `law` not a SpringLaw.
     """
     _checks.instance("robot", robot, Robot)
     _checks.instance("law", law, SpringLaw)
@@ -185,6 +204,11 @@ def linearised(robot, law, w=None):
     -------
     Robot
         Its `A` is the Jacobian of ``w' = g(w)`` at `w`.
+
+    Raises
+    ------
+    ValueError
+        If `law` is several laws, or `w` is not finite or has another shape.
     """
     _checks.instance("robot", robot, Robot)
     one_law(law)
@@ -209,6 +233,12 @@ def make_measured_gfunc(robot, law, road):
     -------
     gfunc : callable
         For the problem's own `suspension.course.RK4`; state of shape (4,), t in s, v in m/s.
+
+    Raises
+    ------
+    ValueError
+        If `law` is several laws; from the returned function, if w has another shape, t or v is no
+        finite number, or the road returns another shape than it was given, or what is not finite.
     """
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
@@ -225,7 +255,15 @@ def make_measured_gfunc(robot, law, road):
 
 
 def one_law(law):
-    """Return `law` if it is one SpringLaw, else raise an error that names it."""
+    """Return `law` if it is one SpringLaw, else raise an error that names it.
+
+    Raises
+    ------
+    ValueError
+        If it is several laws: their shape is told.
+    TypeError
+        If it is not a SpringLaw.
+    """
     _checks.instance("law", law, SpringLaw)
     if law.shape:
         raise ValueError(f"law must be one law, got laws of shape {law.shape}")

@@ -93,7 +93,13 @@ class Stiffness(NamedTuple):
         return stats.t(self.free, loc=self.value, scale=max(self.error, np.finfo(float).tiny))
 
     def interval(self, level=0.95):
-        """Confidence interval of this stiffness alone, N/m, shape (2,)."""
+        """Confidence interval of this stiffness alone, N/m, shape (2,).
+
+        Raises
+        ------
+        ValueError
+            If `level` is not between 0 and 1, or there are three readings: they leave no error.
+        """
         level = _checks.interval("level", level, 0, 1)
         self._needs_an_error()
         half = stats.t.ppf((1 + level) / 2, self.free) * self.error
@@ -224,7 +230,13 @@ class SpringFit:
         return bool(np.abs(self.residuals).max() <= EXACT * np.abs(self.F).max())
 
     def force(self, x):
-        """The fitted force at displacements `x`, N."""
+        """The fitted force at displacements `x`, N.
+
+        Raises
+        ------
+        ValueError
+            If a displacement is not finite.
+        """
         return np.polynomial.polynomial.polyval(_checks.array("x", x), self.beta)
 
     def band(self, x, level=0.95):
@@ -240,6 +252,11 @@ class SpringFit:
         -------
         band : ndarray, shape (2, n)
             Lower and upper bound, N.
+
+        Raises
+        ------
+        ValueError
+            If `x` is not finite or has another shape, or `intervals` refuses.
         """
         rows = np.vander(_checks.array("x", x, (None,)), 3, increasing=True)
         error = np.sqrt(np.einsum("ni,ij,nj->n", rows, self.covariance, rows))
@@ -252,7 +269,13 @@ class SpringFit:
         return float(self.beta[1] / self.delta_max)
 
     def stiffness_interval(self, level=0.95):
-        """Confidence interval of the spring constant alone, N/m, shape (2,)."""
+        """Confidence interval of the spring constant alone, N/m, shape (2,).
+
+        Raises
+        ------
+        ValueError
+            As `intervals` does.
+        """
         return self.intervals(level, "individual")[1] / self.delta_max
 
     @property
@@ -323,6 +346,11 @@ class SpringFit:
         """Where the fitted force carries `load`, in N, while it grows: x = delta / delta_max.
 
         Beyond 1 it is an extrapolation. None if the parabola bends down before it gets there.
+
+        Raises
+        ------
+        ValueError
+            If `load` is no finite number.
         """
         load = _checks.number("load", load)
         beta0, beta1, beta2 = self.beta
@@ -335,12 +363,23 @@ class SpringFit:
         """The slope where the spring carries `load`, in N: what small swings about rest feel.
 
         Its standard error holds that displacement fixed. None if no displacement carries the load.
+
+        Raises
+        ------
+        ValueError
+            If `load` is no finite number.
         """
         x = self.displacement(load)
         return None if x is None else self._slope_at("tangent at the static load", x)
 
     def stiffnesses(self, load):
-        """`slope`, `line` and, where there is one, `tangent(load)`."""
+        """`slope`, `line` and, where there is one, `tangent(load)`.
+
+        Raises
+        ------
+        ValueError
+            If `load` is no finite number.
+        """
         three = self.slope, self.line, self.tangent(load)
         return tuple(stiffness for stiffness in three if stiffness is not None)
 
@@ -363,6 +402,11 @@ class SpringFit:
         Returns
         -------
         Linearity
+
+        Raises
+        ------
+        ValueError
+            As `intervals` does.
         """
         low, high = self.intervals(level)[[0, 2]].T
         if self.exact:
@@ -394,6 +438,12 @@ class SpringFit:
         -------
         power : float or ndarray
             Probability, from ``1 - level`` for a linear spring to 1.
+
+        Raises
+        ------
+        ValueError
+            If a coefficient is not finite, they do not broadcast, `level` is not between 0 and 1,
+            or there are three readings: they leave no error.
         """
         level = _checks.interval("level", level, 0, 1)
         self._needs_an_error()
@@ -435,12 +485,18 @@ class SpringFit:
         -------
         intervals : ndarray, shape (3, 2)
             Lower and upper bound for beta0, beta1, beta2, N.
+
+        Raises
+        ------
+        ValueError
+            If `level` is not between 0 and 1, `method` or `p` is none of these, or there are three
+            readings: they leave no error.
         """
         s = self.width(level, method, p)
         return self.beta[:, None] + np.outer(s * self.errors, [-1, 1])
 
     def width(self, level=0.95, method="scheffe", p=3):
-        """Half-width s of the intervals in standard errors; arguments as in `intervals`."""
+        """Half-width s of `intervals`, in standard errors; arguments and refusals are the same."""
         level = _checks.interval("level", level, 0, 1)
         _checks.one_of("method", method, ("scheffe", "bonferroni", "individual"))
         _checks.one_of("p", p, (1, 2, 3))

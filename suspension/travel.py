@@ -60,6 +60,11 @@ def travel(robot, bump, v, samples=2001, *, distance=None):
     -------
     Travel
         The compression is ``h_i - Y_i``, counted from the unstretched spring.
+
+    Raises
+    ------
+    ValueError
+        If `samples` is no whole number from 2 to 10^6, or `suspension.margin` refuses.
     """
     samples = _checks.whole("samples", samples, 2)
     if samples > MAX_SAMPLES:
@@ -111,6 +116,11 @@ def overtravel(robot, bump, limit, vmin, vmax, *, distance=None):
     ranges : tuple of Overtravel
         In order. A range narrower than a fortieth of its speed may be missed.
 
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, or `critical_speeds` or `travel` refuses.
+
     Examples
     --------
     >>> from suspension.road import GaussianBump
@@ -159,6 +169,11 @@ def margin_map(robot, bump, v, k, *, distance=None):
     -------
     margin : ndarray, shape (m, n)
         N.
+
+    Raises
+    ------
+    ValueError
+        If a stiffness is not > 0, or `suspension.margin` refuses.
     """
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
     return np.array(
@@ -167,7 +182,15 @@ def margin_map(robot, bump, v, k, *, distance=None):
 
 
 def compression_map(robot, bump, v, k, *, distance=None):
-    """The largest compression of a spring, in m, over speed and stiffness, as `margin_map`."""
+    """The largest compression of a spring, in m, over speed and stiffness.
+
+    Parameters and errors are those of `margin_map`.
+
+    Returns
+    -------
+    compression : ndarray, shape (m, n)
+        m.
+    """
     robots = [replace(robot, k1=stiffness, k2=stiffness) for stiffness in k]
     return np.array(
         [
@@ -197,7 +220,7 @@ class Balance(NamedTuple):
 def balance(robot, bump, v, *, distance=None):
     """The two parts of the least normal force on the way over the bump, at `v` in m/s.
 
-    `distance` is that of `travel`.
+    `distance` is that of `travel`, errors are those of `suspension.margin`.
     """
     least = min(minima(robot, bump, v, distance=distance), key=lambda minimum: minimum.force)
     t = np.array([least.t])
@@ -238,6 +261,11 @@ def moments(flight, robot, bump, *, distance=None):
         apex of that flight, its landing, and the highest wheel of all. Without: the front wheel at
         the foot and on the top of the bump, the body over the top, the rear wheel on it, and both
         past it.
+
+    Raises
+    ------
+    ValueError
+        If the flight's speed is not > 0, or `suspension.least_force.distance_over` refuses.
     """
     v = _checks.positive("flight's v", flight.v)
     end = distance_over(robot, bump, distance) / v

@@ -41,6 +41,11 @@ class Tyre:
         Of the tyres, kt, N/m, > 0.
     damping : float
         Of the tyres, ct, N s/m, >= 0.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of its range.
     """
 
     mass: float
@@ -54,7 +59,20 @@ class Tyre:
 
     @classmethod
     def with_ratio(cls, mass, stiffness, ratio):
-        """The tyre on which the wheel alone would bounce with this damping ratio."""
+        """The tyre on which the wheel alone would bounce with this damping ratio.
+
+        Parameters
+        ----------
+        mass, stiffness : float
+            As for the class, kg and N/m, > 0.
+        ratio : float
+            Damping over the critical one, ``ct / (2 sqrt(kt mass))``, >= 0.
+
+        Raises
+        ------
+        ValueError
+            If an argument is out of its range, or the damping no finite number.
+        """
         mass, stiffness = _checks.positive("mass", mass), _checks.positive("stiffness", stiffness)
         ratio = _checks.nonnegative("ratio", ratio)
         return cls(mass, stiffness, 2 * ratio * np.sqrt(mass * stiffness))
@@ -277,6 +295,11 @@ def heaviest_wheel(robot, bump, v, *, distance=None):
     mass : float
         Of a wheel pair, kg; 0 if even a wheel without mass leaves the ground, inf if the road
         nowhere falls away faster than gravity.
+
+    Raises
+    ------
+    ValueError
+        As `suspension.margin` does.
 
     Examples
     --------

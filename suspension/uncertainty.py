@@ -88,6 +88,14 @@ def critical_speed_intervals(stiffness, robot, bump, vmin, vmax, level=0.95, *, 
     intervals : tuple of CriticalSpeed
         In order of speed; also those that do not exist at the estimate itself. Stiffnesses below
         a twentieth and above twenty times the estimate are left out.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, the fit is one of three readings, which leave no error,
+        or `suspension.critical_speeds` or `suspension.branches.branches` refuses.
+    TypeError
+        If `stiffness` is neither a Stiffness nor a SpringFit.
     """
     stiffness = _stiffness(stiffness)
     return _intervals([stiffness], robot, bump, vmin, vmax, level, distance)[0]
@@ -107,6 +115,11 @@ def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95, *, di
     Returns
     -------
     pairs : tuple of (Stiffness, tuple of CriticalSpeed)
+
+    Raises
+    ------
+    ValueError
+        As `critical_speed_intervals` does.
     """
     _checks.instance("fit", fit, SpringFit)
     _checks.instance("robot", robot, Robot)
@@ -159,6 +172,18 @@ def loss_probability(stiffness, robot, bump, v, *, distance=None):
         Speed, m/s, > 0.
     distance : float, optional
         As in `critical_speed_intervals`.
+
+    Returns
+    -------
+    probability : float
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of its range, the fit is one of three readings, which leave no error,
+        or `suspension.critical.critical_stiffness` refuses.
+    TypeError
+        If `stiffness` is neither a Stiffness nor a SpringFit.
     """
     stiffness = _stiffness(stiffness)
     distance = distance_over(robot, bump, distance)

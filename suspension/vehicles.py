@@ -52,6 +52,11 @@ def as_bump(height, length):
 
     The obstacle is taken for a parabola from foot to foot: 2/3 of height times length in area.
 
+    Raises
+    ------
+    ValueError
+        If `length` is not > 0, or `height` no finite number.
+
     Examples
     --------
     >>> round(as_bump(0.1, 3.7).sigma, 3)
