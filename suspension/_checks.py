@@ -10,6 +10,7 @@ __all__ = [
     "array",
     "ends",
     "function",
+    "in_order",
     "instance",
     "instances",
     "interval",
@@ -153,6 +154,18 @@ def array(name, value, shape=None, dtype=float, finite=True):
         raise ValueError(f"{name} must have shape {wanted}, got {x.shape}")
     if finite and not np.isfinite(x).all():
         raise ValueError(f"{name} must be finite everywhere, got {x[~np.isfinite(x)].flat[0]}")
+    return x
+
+
+def in_order(name, values, least=0):
+    """Return `values` as a row of finite numbers, each larger than the one before."""
+    x = array(name, values, (None,))
+    if len(x) < least:
+        raise ValueError(f"{name} must hold numbers, {least} or more, got {len(x)}")
+    back = np.flatnonzero(x[1:] <= x[:-1])
+    if back.size:
+        before, after = x[back[0]], x[back[0] + 1]
+        raise ValueError(f"{name} must be in order, got {after:.6g} after {before:.6g}")
     return x
 
 

@@ -167,10 +167,18 @@ def zeros(f, x):
     Raises
     ------
     ValueError
-        If `x` is not finite or has another shape.
+        If `x` does not hold two finite numbers or more, in order, or a value of `f` is no finite
+        number: it would hide a zero.
+    TypeError
+        If `f` is not a function.
     """
-    x = _checks.array("x", x, (None,))
-    y = np.array([f(s) for s in x])
+    _checks.function("f", f, "f(x) -> float")
+    x = _checks.in_order("x", x, 2)
+
+    def value(s):
+        return _checks.number(f"f({s:g})", f(s))
+
+    y = np.array([value(s) for s in x])
     while True:
         dx = np.diff(x)
         slope = _largest_nearby(np.abs(np.diff(y)) / dx)
@@ -180,9 +188,9 @@ def zeros(f, x):
         middle = (x[:-1] + x[1:])[unsure] / 2
         place = np.flatnonzero(unsure) + 1
         x = np.insert(x, place, middle)
-        y = np.insert(y, place, [f(s) for s in middle])
+        y = np.insert(y, place, [value(s) for s in middle])
     changes = np.flatnonzero(y[:-1] * y[1:] < 0)
-    inside = [brentq(f, x[j], x[j + 1], xtol=1e-14, rtol=1e-15) for j in changes]
+    inside = [brentq(value, x[j], x[j + 1], xtol=1e-14, rtol=1e-15) for j in changes]
     return np.sort(np.concatenate([x[y == 0], inside]))
 
 

@@ -196,8 +196,11 @@ def turning_points(crossing, tfinal=None, *, distance=None):
     Raises
     ------
     ValueError
-        As `margin` does.
+        As `margin` does; also if the crossing's v is not > 0 and `tfinal` is not given.
+    TypeError
+        If `crossing` is not a Crossing.
     """
+    _checks.instance("crossing", crossing, Crossing)
     tfinal = duration(crossing.robot, crossing.bump, crossing.v, tfinal, distance)
     t, N, error = forces_and_minima(crossing, tfinal)
     scale = max(np.abs(crossing.robot.C @ crossing.robot.equilibrium).max(), -N.min())
@@ -239,11 +242,12 @@ def duration(robot, bump, v, tfinal=None, distance=None):
     Raises
     ------
     ValueError
-        If `tfinal` and `distance` are both given, `tfinal` is no finite number > 0, or, without it,
-        `distance_over` refuses.
+        If `v` is no finite number, `tfinal` and `distance` are both given, `tfinal` is no finite
+        number > 0, or, without it, `v` is not > 0 or `distance_over` refuses.
     """
     if tfinal is None:
-        return distance_over(robot, bump, distance) / v
+        return distance_over(robot, bump, distance) / _checks.positive("v", v)
+    _checks.number("v", v)
     if distance is not None:
         raise ValueError(
             f"distance must be None if tfinal is given, got distance={distance}, tfinal={tfinal}"
@@ -354,7 +358,19 @@ def _forces(crossing, t, order, memory):
 
 
 def sample_count(robot, v, distance):
-    """About how many samples of the forces a margin at speed `v` over a distance takes."""
+    """About how many samples of the forces a margin at speed `v` over a distance takes.
+
+    Speeds, m/s, and distances, m, may be arrays whose shapes fit.
+
+    Raises
+    ------
+    ValueError
+        If a speed or a distance is no finite number > 0.
+    TypeError
+        If `robot` is not a Robot.
+    """
+    _checks.instance("robot", robot, Robot)
+    v, distance = _checks.positives("v", v), _checks.positives("distance", distance)
     return 400 + 2.5 * distance / v * np.abs(robot.eigenvalues.imag).max()
 
 
