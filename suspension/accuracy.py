@@ -151,10 +151,13 @@ def seen_mode(scheme, lam, dts):
     Raises
     ------
     ValueError
-        If a time step is not > 0.
+        If `lam` is no finite number, a time step is not > 0, or they are not in order.
+    TypeError
+        If `scheme` is not a Scheme.
     """
     _checks.instance("scheme", scheme, Scheme)
-    dts = _steps(dts)
+    lam = _checks.array("lam", lam, (), complex)
+    dts = _checks.in_order("dts", _steps(dts))
     R = scheme.stability_function(lam * dts)
     return (np.log(np.abs(R)) + 1j * np.unwrap(np.angle(R))) / dts
 
@@ -171,16 +174,34 @@ def half_turn(seen, dts):
 
     Parameters
     ----------
-    seen : ndarray of complex, shape (n,)
+    seen : array_like of complex, shape (n,)
         The eigenvalue of the mode that a run shows, 1/s: `seen_mode`.
     dts : array_like, shape (n,)
-        Time steps, s, in order.
+        Time steps, s, in order, n >= 1.
+
+    Returns
+    -------
+    dt : float or None
+        Between two of `dts`; the first of them if the mode turns so far in it already.
+
+    Raises
+    ------
+    ValueError
+        If the time steps are not > 0 and in order, there is none, or `seen` does not hold a finite
+        number for each.
+
+    Examples
+    --------
+    >>> half_turn([50j, 50j], [0.1, 0.2]), half_turn([10j, 10j], [0.1, 0.2])
+    (0.1, None)
     """
-    angle = seen.imag * np.asarray(dts)
-    after = int(np.argmax(angle > np.pi))
-    if after == 0:
+    dts = _checks.in_order("dts", _steps(dts), 1)
+    angle = _checks.array("seen", seen, dts.shape, complex).imag * dts
+    over = np.flatnonzero(angle > np.pi)
+    if not over.size:
         return None
-    return float(np.interp(np.pi, angle[after - 1 : after + 1], dts[after - 1 : after + 1]))
+    around = slice(max(over[0] - 1, 0), over[0] + 1)
+    return float(np.interp(np.pi, angle[around], dts[around]))
 
 
 def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
@@ -204,9 +225,11 @@ def solve_ivp_errors(robot, bump, *, v, method, tolerances, distance=None):
     Raises
     ------
     ValueError
-        If an argument is out of its range, `suspension.least_force.distance_over` or SciPy refuses,
+        If an argument is out of its range (a tolerance is no finite number > 0, say),
+        `suspension.least_force.distance_over` or SciPy refuses,
         or more than 10^5 samples would be needed to follow the swings of the modes.
     """
+    tolerances = _checks.positives("tolerances", tolerances, (None,))
     tfinal = _duration(robot, bump, v, distance)
     T = np.linspace(0, tfinal, 201)
     N = _truth(robot, bump, v, T)[1]
@@ -295,10 +318,11 @@ def just_lost(robot, bump, critical, n=40, *, distance=None):
     Raises
     ------
     ValueError
-        If `n` is no whole number >= 1, a speed is not > 0, or `suspension.margin` refuses.
+        If `n` is no whole number >= 1, a speed is not > 0, they are not in order, or
+        `suspension.margin` refuses.
     """
     n = _checks.whole("n", n, 1)
-    critical = _checks.array("critical", critical, (None,))
+    critical = _checks.in_order("critical", _checks.positives("critical", critical))
     distance = distance_over(robot, bump, distance)
 
     def lost(v):
@@ -344,7 +368,8 @@ def fitted_order(dts, errors):
     Raises
     ------
     ValueError
-        If a time step is not > 0, or there is not one error for each.
+        If a time step is not > 0, there is not one error for each, or all that are left belong to
+        one and the same step.
 
     Examples
     --------
@@ -356,6 +381,8 @@ def fitted_order(dts, errors):
     good = np.isfinite(errors) & (errors > 0)
     if good.sum() < 2:
         return np.nan
+    if np.ptp(dts[good]) == 0:
+        raise ValueError(f"dts must hold two different time steps, got {dts[good][0]:g} only")
     return float(np.polyfit(np.log(dts[good]), np.log(errors[good]), 1)[0])
 
 
@@ -393,14 +420,23 @@ def flight_errors(robot, road, *, v, tfinal, steps):
     Raises
     ------
     ValueError
-        If a number of steps is no whole number >= 1 or more than 10^8, or `suspension.flight.fly`
-        refuses the run.
+        If a number of steps is no whole number >= 1 or more than 10^8, `suspension.flight.fly`
+        refuses the run, or a component of the state stays zero in it, as on a level road.
     RuntimeError
         As `suspension.flight.fly` does.
     """
+    try:
+        steps = list(steps)
+    except TypeError:
+        raise ValueError(f"steps must hold numbers of steps, got {steps!r}") from None
     steps = [_checks.whole("steps", J, 1) for J in steps]
     flight = fly(robot, road, v=v, tfinal=tfinal)
     scale = np.abs(flight.W).max(axis=1)
+    if not scale.all():
+        raise ValueError(
+            "robot must be moved by the road before tfinal, in heave and pitch, for errors to have "
+            f"a measure, got largest values {scale}"
+        )
     gfunc = make_flight_gfunc(robot, road)
 
     def last(gfunc, w, duration, J):

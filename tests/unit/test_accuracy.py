@@ -160,6 +160,14 @@ def test_rk4_turns_an_undamped_mode_over_at_root_six(omega):
     assert dt * omega == pytest.approx(np.sqrt(6), rel=1e-5)
 
 
+def test_a_mode_that_turns_over_at_once_is_not_one_that_never_does():
+    dts = [0.1, 0.2]
+    assert accuracy.half_turn(np.array([50j, 50j]), dts) == 0.1  # by 5 and by 10 rad
+    assert accuracy.half_turn(np.array([20j, 20j]), dts) == pytest.approx(np.pi / 20)
+    assert accuracy.half_turn(np.array([10j, 10j]), dts) is None
+    assert accuracy.half_turn([50j], [0.1]) == 0.1 and accuracy.half_turn([10j], [0.1]) is None
+
+
 def test_crank_nicolson_never_turns_a_mode_over():
     dts = np.geomspace(1e-3, 100, 500)
     assert accuracy.half_turn(accuracy.seen_mode(CRANK_NICOLSON, 20j, dts), dts) is None
