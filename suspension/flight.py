@@ -307,9 +307,10 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0, end=None):
     Raises
     ------
     ValueError
-        If `start` is no finite number, `end` is none or not later, `pressing` does not hold two, or
-        the road returns another shape than it was given, or what is not finite; and from the
-        returned function, if t or v is no finite number, or the road returns such a thing.
+        If `start` is no finite number, `end` is none or not later, `pressing` does not hold two
+        bools, or the road returns another shape than it was given, or what is not finite; and from
+        the returned function, if w has another shape, t or v is no finite number, or the road
+        returns such a thing. What an unstable run makes of w, infinite or nan, is handed on.
     """
     _checks.instance("robot", robot, Robot)
     _checks.function("road", road, "road(x) -> (H, dHdx)")
@@ -317,14 +318,24 @@ def make_flight_gfunc(robot, road, pressing=None, start=0.0, end=None):
     profile(road, robot.arms)  # answers in arrays
     sides = () if end is None else (start, _checks.number("end", end, "> start", start.__lt__))
     if pressing is not None:
-        pressing = _checks.array("pressing", pressing, (2,)).astype(bool)
-    return _gfunc(robot, _spring_forces(robot, road, *sides), pressing, start)
+        bools = _checks.array("pressing", pressing, (2,))
+        if not np.isin(bools, (0, 1)).all():
+            raise ValueError(f"pressing must hold True or False for each wheel, got {pressing}")
+        pressing = bools.astype(bool)
+    gfunc = _gfunc(robot, _spring_forces(robot, road, *sides), pressing, start)
+
+    def checked(w, t, v):
+        w = _checks.array("w", w, (4,), finite=False)
+        return gfunc(w, _checks.number("t", t), _checks.number("v", v))
+
+    return checked
 
 
 def _gfunc(robot, springs, pressing, start=0.0):
     def gfunc(w, t, v):
         p, f = springs(w, start + t, v)
-        N = np.where((p >= 0) & (f > 0) if pressing is None else pressing, f, 0.0)
+        # A state of nan has forces of nan, not none.
+        N = np.where(~((p < 0) | (f <= 0)) if pressing is None else pressing, f, 0.0)
         return robot.S @ w + robot.P @ N + robot.e, *N
 
     return gfunc

@@ -716,6 +716,13 @@ def test_rk4_has_its_order_from_kink_to_kink():
     assert np.log2(errors[0] / errors[2]) / 2 == pytest.approx(4, abs=0.4)
 
 
+def test_gfunc_makes_nan_of_a_state_that_is_none():
+    """An unstable run overflows: a force of zero would look like a flight."""
+    for pressing in (None, (True, True)):
+        wdot, *N = make_flight_gfunc(ROBOT, BUMP, pressing)(np.full(4, np.nan), 0.1, 1.2)
+        assert np.isnan(N).all() and np.isnan(wdot).all()
+
+
 def test_gfunc_gives_the_forces_it_uses():
     gfunc, w = make_flight_gfunc(ROBOT, BUMP), np.array([0, 0.1, 0.05, 0])
     wdot, N1, N2 = gfunc(w, 0.1, 1.2)
