@@ -11,6 +11,7 @@ import numpy as np
 from scipy import stats
 
 from suspension import _checks
+from suspension.robot import Robot
 from suspension.spring_law import SpringLaw, one_law
 from suspension.springs import SpringFit
 from suspension.sweep import Drive, drive
@@ -60,10 +61,13 @@ def zero_speeds(robot, law, road, v, *, zooms=1, geometry="small"):
     Raises
     ------
     ValueError
-        If `v` are not two speeds or more, > 0 and in order, there are several laws, `zooms` is out
-        of its range, or `suspension.sweep.drive` refuses the runs.
+        If `v` are not two speeds or more, > 0 and in order, there are several robots or laws,
+        `zooms` is out of its range, or `suspension.sweep.drive` refuses the runs.
+    TypeError
+        If `robot` is not a Robot, or `law` not a SpringLaw.
     """
     v = _in_order("v", v)
+    _one_robot(robot)
     one_law(law)
     return _zeros(_margins_of(robot, law, road, geometry), np.log(v), zooms)
 
@@ -92,10 +96,13 @@ def zero_stops(robot, law, road, v, stops, *, zooms=2):
     Raises
     ------
     ValueError
-        If `stops` are not two numbers or more, > 0 and in order, there are several laws, `v` or
-        `zooms` is out of its range, or `suspension.sweep.drive` refuses the runs.
+        If `stops` are not two numbers or more, > 0 and in order, there are several robots or laws,
+        `v` or `zooms` is out of its range, or `suspension.sweep.drive` refuses the runs.
+    TypeError
+        If `robot` is not a Robot, or `law` not a SpringLaw.
     """
     stops = _in_order("stops", stops)
+    _one_robot(robot)
     one_law(law)
     v = _checks.positive("v", v)
 
@@ -113,6 +120,12 @@ def _margins_of(robot, law, road, geometry="small"):
         return drive(robot, road, np.exp(x), law=law, ground="pulls", geometry=geometry).margin
 
     return margin
+
+
+def _one_robot(robot):
+    robots = _checks.instances("robot", robot, Robot)
+    if robots.shape:
+        raise ValueError(f"robot must be one robot, got robots of shape {robots.shape}")
 
 
 def _in_order(name, values):
@@ -194,8 +207,9 @@ def follow_speed(robot, law, road, v):
 
     Parameters
     ----------
-    robot, road
-        As in `drive`.
+    robot : Robot
+    road : callable
+        ``road(x) -> (H, dHdx)``.
     law : SpringLaw
         n laws.
     v : float
@@ -209,8 +223,10 @@ def follow_speed(robot, law, road, v):
     Raises
     ------
     ValueError
-        If `v` is no finite number > 0, `law` is not a row of laws, or `suspension.sweep.drive`
-        refuses the runs.
+        If `v` is no finite number > 0, there are several robots, `law` is not a row of laws, or
+        `suspension.sweep.drive` refuses the runs.
+    TypeError
+        If `robot` is not a Robot, or `law` not a SpringLaw.
     """
     return follow_speeds(robot, law, road, [_checks.positive("v", v)])[0]
 
@@ -235,6 +251,7 @@ def follow_speeds(robot, law, road, v):
     ValueError
         As `follow_speed` does, or if `v` has another shape.
     """
+    _one_robot(robot)
     _checks.instance("law", law, SpringLaw)
     if len(law.shape) != 1:
         raise ValueError(f"law must be a row of laws, got shape {law.shape}")
