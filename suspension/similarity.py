@@ -44,6 +44,8 @@ __all__ = [
 
 AHEAD = 8.0  # in units of sigma: so far ahead a bump of natural units begins
 MAX_SAMPLES = 2 * 10**7  # of the forces, at all speeds together: half a minute
+MOST = 1e150  # its square is a number
+MODERATE = 1e-149, 1e149  # so far apart a search for a limit may begin
 SPACING = 0.03  # of the first grid of speeds in `window`, in ln v
 
 
@@ -135,7 +137,8 @@ def natural_units(groups: Groups) -> tuple[Robot, GaussianBump, float]:
     Raises
     ------
     ValueError
-        If a group is out of its range or not finite, or so extreme that Izz is no number > 0.
+        If a group is out of its range or not finite, or so extreme that the moment of inertia,
+        ``j lam^2``, is no finite number > 0.
     TypeError
         If `groups` is not a Groups.
 
@@ -148,6 +151,8 @@ def natural_units(groups: Groups) -> tuple[Robot, GaussianBump, float]:
     _checks.instance("groups", groups, Groups)
     nu, j, lam = (_checks.positive(name, getattr(groups, name)) for name in ("nu", "j", "lam"))
     zeta = _checks.nonnegative("zeta", groups.zeta)
+    moderate = "so moderate that the moment of inertia, j lam^2, is a finite number > 0"
+    _checks.number("lam", lam, moderate, lambda x: 0 < j * (x * x) < np.inf)
     robot = Robot(0.5, 0.5, g=1, m=1, Izz=j * lam**2, L1=lam, L2=lam, c1=zeta, c2=zeta)
     return robot, GaussianBump(groups.eta, 1, lam + AHEAD), nu
 
@@ -173,14 +178,21 @@ def way(robot, bump, v, swings=8):
     Raises
     ------
     ValueError
-        If a speed is not > 0, or `swings` no finite number >= 0.
+        If a speed is not > 0, `swings` no finite number >= 0, or the bump so far behind the robot
+        that a run ends before it begins.
     """
     _checks.instance("robot", robot, Robot)
     _checks.instance("bump", bump, GaussianBump)
     swings = _checks.nonnegative("swings", swings)
     slowest = np.abs(robot.eigenvalues).min()
     passed = bump.centre + robot.L1 + AHEAD * bump.sigma
-    return passed + swings * 2 * np.pi / slowest * _positive("v", v)[()]
+    distance = passed + swings * 2 * np.pi / slowest * _positive("v", v)[()]
+    if not np.all(distance > 0):
+        raise ValueError(
+            f"bump must lie ahead of the robot at X = 0, or v and swings be so high that a run "
+            f"ends beyond, got {bump}: a distance of {np.min(distance):g} m"
+        )
+    return distance
 
 
 def highest_bump(
@@ -370,10 +382,18 @@ def still(nu, zeta):
     Raises
     ------
     ValueError
-        If `zeta` or a `nu` is not > 0.
+        If `zeta` or a `nu` is not > 0, or their product is 10^150 or more.
     """
-    with np.errstate(over="ignore"):  # so low a speed that no number tells the height
-        return np.exp(_log_still(2 * _checks.positive("zeta", zeta) * _positive("nu", nu)[()]))
+    zeta, nu = _checks.positive("zeta", zeta), _positive("nu", nu)[()]
+    # So low a speed that no number tells the height, and a product that none tells.
+    with np.errstate(over="ignore", divide="ignore"):
+        a = 2 * zeta * nu
+        if not np.all(a < 2 * MOST):
+            raise ValueError(
+                f"nu and zeta must have a product < {MOST:g}, "
+                f"got nu={np.max(nu):g} and zeta={zeta:g}"
+            )
+        return np.exp(_log_still(a))
 
 
 def _log_still(a):
@@ -436,9 +456,9 @@ def window_limit(zeta):
     Raises
     ------
     ValueError
-        If `zeta` is not > 0, or so extreme that the search overflows.
+        If `zeta` is not between 10^-149 and 10^149: beyond, the search overflows.
     """
-    zeta = _checks.positive("zeta", zeta)
+    zeta = _checks.interval("zeta", zeta, *MODERATE)
 
     def above(x):  # how far `still` lies above `throw` at a = exp(x), logarithmic; it falls
         return _log_still(np.exp(x)) - np.log(throw(np.exp(x) / (2 * zeta)))
@@ -466,9 +486,9 @@ def closing_limit(eta):
     Raises
     ------
     ValueError
-        If `eta` is not > 0, or so extreme that the search overflows.
+        If `eta` is not between 10^-149 and 10^149: beyond, the search overflows.
     """
-    eta = _checks.positive("eta", eta)
+    eta = _checks.interval("eta", eta, *MODERATE)
     far = 10 + abs(np.log(eta))
     a = np.exp(brentq(lambda x: _log_still(np.exp(x)) - np.log(eta), -far, far, xtol=1e-14))
     return float(a / (2 * np.sqrt(2 * np.pi) * eta))
