@@ -87,7 +87,7 @@ class Stiffness(NamedTuple):
 
     @property
     def distribution(self):
-        """Confidence distribution in N/m, a frozen `scipy.stats.t`."""
+        """Confidence distribution in N/m, a frozen `scipy.stats.t`; errors as for `interval`."""
         self._needs_an_error()
         # Readings on a curve may leave an error of zero, which makes no distribution.
         return stats.t(self.free, loc=self.value, scale=max(self.error, np.finfo(float).tiny))
@@ -98,7 +98,8 @@ class Stiffness(NamedTuple):
         Raises
         ------
         ValueError
-            If `level` is not between 0 and 1, or there are three readings: they leave no error.
+            If `level` is not between 0 and 1, there are three readings, which leave no error, or
+            `value` is no finite number, `error` none >= 0, or `free` no whole number.
         """
         level = _checks.interval("level", level, 0, 1)
         self._needs_an_error()
@@ -106,8 +107,10 @@ class Stiffness(NamedTuple):
         return np.array([self.value - half, self.value + half])
 
     def _needs_an_error(self):
-        if self.free < 1:
+        if _checks.whole(f"free of the stiffness {self.name!r}", self.free, 0) < 1:
             raise ValueError("data must have more points than the three coefficients, got 3")
+        _checks.number(f"value of the stiffness {self.name!r}", self.value)
+        _checks.nonnegative(f"error of the stiffness {self.name!r}", self.error)
 
 
 class Linearity(NamedTuple):

@@ -123,7 +123,7 @@ def critical_speeds_by_stiffness(fit, robot, bump, vmin, vmax, level=0.95, *, di
     """
     _checks.instance("fit", fit, SpringFit)
     _checks.instance("robot", robot, Robot)
-    stiffnesses = fit.stiffnesses(robot.m * robot.g / 2)
+    stiffnesses = [_positive("fit", one) for one in fit.stiffnesses(robot.m * robot.g / 2)]
     intervals = _intervals(stiffnesses, robot, bump, vmin, vmax, level, distance)
     return tuple(zip(stiffnesses, intervals))
 
@@ -208,7 +208,12 @@ def _bounds(stiffness, low, high):
 
 def _stiffness(stiffness):
     if isinstance(stiffness, SpringFit):
-        return stiffness.slope
+        return _positive("stiffness", stiffness.slope)
     if isinstance(stiffness, Stiffness):
-        return stiffness
+        return _positive("stiffness", stiffness)
     raise TypeError(f"stiffness must be a Stiffness or a SpringFit, got {stiffness!r}")
+
+
+def _positive(name, stiffness):
+    _checks.positive(f"value of {name} ({stiffness.name})", stiffness.value)
+    return stiffness
