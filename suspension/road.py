@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator, PPoly
 
 from suspension import _checks
+from suspension.robot import Robot
 
 __all__ = [
     "ISO_8608",
@@ -220,9 +221,10 @@ class RoadProfile:
         Raises
         ------
         ValueError
-            If a position is not finite, or `x` and `start` have not the shape (n,).
+            If a position is not finite, or `x` and `start` have not the same shape (n,).
         """
-        x, start = _checks.array("x", x, (None,)), _checks.array("start", start, (None,))
+        x = _checks.array("x", x, (None,))
+        start = _checks.array("start", start, x.shape)
         height, _ = self._pieces
         piece = np.clip(np.searchsorted(height.x, x, side="right") - 1, 0, len(height.x) - 2)
         c3, c2, c1, c0 = np.vstack([np.zeros((4 - len(height.c), len(x))), height.c[:, piece]])
@@ -358,7 +360,10 @@ def road_input(robot, road, v, t):
     Raises
     ------
     ValueError
-        If the road returns another shape than it was given, or a value that is not finite.
+        If `v` or a time is no finite number, or the road returns another shape than it was given,
+        or a value that is not finite.
+    TypeError
+        If `robot` is not a Robot, or `road` not a function.
     """
     X = _checks.number("v", v) * _checks.array("t", t)
     H, dHdx = under_wheels(robot, road, X)
@@ -388,7 +393,7 @@ def under_wheels(robot, road, X):
         Gives L1 and L2.
     road : callable
         ``road(x) -> (H, dHdx)``.
-    X : ndarray, shape (n,) or ()
+    X : array_like, shape (n,) or ()
 
     Returns
     -------
@@ -398,9 +403,12 @@ def under_wheels(robot, road, X):
     Raises
     ------
     ValueError
-        As `profile` does.
+        As `profile` does, or if `X` does not hold numbers.
+    TypeError
+        If `robot` is not a Robot, or `road` not a function.
     """
-    x = np.add.outer(robot.arms, X)
+    _checks.instance("robot", robot, Robot)
+    x = np.add.outer(robot.arms, _checks.array("X", X, finite=False))
     H, dHdx = profile(road, x.ravel())
     return H.reshape(x.shape), dHdx.reshape(x.shape)
 
@@ -412,7 +420,7 @@ def profile(road, x):
     ----------
     road : callable
         ``road(x) -> (H, dHdx)``.
-    x : ndarray
+    x : array_like
         Positions, m, any shape.
 
     Returns
@@ -423,11 +431,12 @@ def profile(road, x):
     Raises
     ------
     ValueError
-        If the road returns no pair of arrays of numbers, another shape than it was given, or a
-        value that is not finite: the place is told.
+        If `x` does not hold numbers, or the road returns no pair of arrays of numbers, another
+        shape than it was given, or a value that is not finite: the place is told.
     TypeError
         If `road` is not a function.
     """
+    x = _checks.array("x", x, finite=False)
     value = _checks.function("road", road, "road(x) -> (H, dHdx)")(x)
     try:
         H, dHdx = value

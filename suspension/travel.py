@@ -12,6 +12,7 @@ from suspension import _checks
 from suspension.contact import critical_speeds, exact_loss, margin, minima, regimes_between
 from suspension.critical import zeros
 from suspension.exact import over_bump
+from suspension.flight import Flight
 from suspension.least_force import distance_over
 from suspension.road import road_input
 
@@ -266,7 +267,10 @@ def moments(flight, robot, bump, *, distance=None):
     ------
     ValueError
         If the flight's speed is not > 0, or `suspension.least_force.distance_over` refuses.
+    TypeError
+        If `flight` is not a Flight, `robot` not a Robot, or `bump` not a GaussianBump.
     """
+    _checks.instance("flight", flight, Flight)
     v = _checks.positive("flight's v", flight.v)
     end = distance_over(robot, bump, distance) / v
 
