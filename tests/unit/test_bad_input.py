@@ -27,13 +27,17 @@ from suspension import (
     choice,
     contact,
     course,
+    critical,
     exact,
+    flight,
     frequency,
+    least_force,
     measured,
     similarity,
     spring_law,
     springs,
     travel,
+    uncertainty,
 )
 from suspension.animation import animate_robot
 from suspension.branches import branches
@@ -43,7 +47,7 @@ from suspension.explorer.workshop import Workshop
 from suspension.least_force import distance_over
 from suspension.practice import errors_of
 from suspension.rides import rides
-from suspension.road import RoadProfile, RoughRoad
+from suspension.road import RoadProfile, RoughRoad, profile, road_input, under_wheels
 from suspension.small_angle import full_geometry, margin_with
 from suspension.sweep import drive, sweep
 from suspension.tyre import Tyre, heaviest_wheel, roll
@@ -66,6 +70,7 @@ W = np.tile(ROBOT.equilibrium[:, None], 11)
 FORCES = np.ones((2, 11))
 TYRE = Tyre(0.01, 1e5, 3.0)
 FLIGHT = suspension.fly(ROBOT, BUMP, v=5, tfinal=0.1)
+WEIGHTLESS = suspension.Robot(800, 800, g=0)
 LAW = spring_law.SpringLaw(0.0, 13.2, 0.5, 0.0165, stop=8000.0)
 TWO_LAWS = spring_law.SpringLaw([0.0, 0.1], 13.2, 0.5, 0.0165)
 
@@ -103,6 +108,11 @@ NOT_A_SCHEME = [*NOT_AN_OBJECT, Thing, suspension.Scheme, "RK4", ROBOT, len]
 NOT_A_TABLE = [*NOT_AN_OBJECT, Thing, ROBOT, DATA["force"], np.ones((5, 2)), len]
 NOT_A_LAW = [*NOT_AN_OBJECT, Thing, spring_law.SpringLaw, FIT, ROBOT, len]
 NOT_A_FIT = [*NOT_AN_OBJECT, Thing, springs.SpringFit, FIT.results, DATA, LAW, len]
+SEVERAL_ROBOTS = [[ROBOT], [ROBOT, ROBOT], [ROBOT] * 3, [[ROBOT], [ROBOT]], []]
+NOT_A_STIFFNESS = [
+    *(springs.Stiffness("k", value, 1.0, 5) for value in NOT_POSITIVE),
+    *(springs.Stiffness("k", 800.0, error, 5) for error in NOT_NONNEGATIVE),
+]
 NO_ROADS = [
     lambda x: None,
     lambda x: 0.0,
@@ -375,6 +385,51 @@ TABLE = [
         )
     ),
     Row(
+        "duration over a distance",
+        least_force.duration,
+        CROSS | {"distance": 1.0},
+        {"v": NOT_POSITIVE, "distance": but(NOT_POSITIVE, None), "bump": UNDER_A_WHEEL},
+        NO_CROSSING,
+    ),
+    Row(
+        "duration until a time",
+        least_force.duration,
+        CROSS | {"v": -1, "tfinal": 1.0},
+        {"v": NOT_A_NUMBER, "tfinal": but(NOT_POSITIVE, None), "distance": [1.0]},
+    ),
+    Row(
+        "turning_points",
+        least_force.turning_points,
+        {"crossing": exact.Crossing(ROBOT, BUMP, 1.2), "distance": 1.0},
+        {
+            "crossing": [exact.Crossing(ROBOT, BUMP, v) for v in (0, -1.2)],
+            "distance": NOT_A_DISTANCE,
+        },
+        {"crossing": [*NOT_A_ROBOT, exact.Crossing, ROBOT]},
+        also=("v",),
+    ),
+    Row(
+        "sample_count",
+        least_force.sample_count,
+        {"robot": ROBOT, "v": [1.0, 2.0], "distance": 1.0},
+        {name: [*not_an_array(1.0), *OUTSIDE, 0, -1, [1, 0]] for name in ("v", "distance")},
+        {"robot": NOT_A_ROBOT},
+    ),
+    Row(
+        "zeros",
+        critical.zeros,
+        {"f": lambda x: x - 0.3, "x": [0.0, 1.0]},
+        {
+            "f": [
+                *((lambda x, bad=bad: bad) for bad in NOT_A_NUMBER),
+                *(lambda x, end=end: np.nan if x == end else x + 3 for end in (0, 1)),
+                lambda x: x - 0.3 if x in (0, 1) else np.nan,
+            ],
+            "x": [*not_finite([0.0, 1.0]), [1, 0], [0, 0], [0, 2, 1], [0], []],
+        },
+        {"f": NOT_AN_OBJECT},
+    ),
+    Row(
         "distance_over",
         distance_over,
         {"robot": ROBOT, "bump": BUMP, "distance": 1.0},
@@ -450,8 +505,22 @@ TABLE = [
         "loss_probability",
         loss_probability,
         {"stiffness": FIT, **CROSS, "distance": 1.0},
-        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE},
+        {"v": NOT_POSITIVE, "distance": NOT_A_DISTANCE, "stiffness": NOT_A_STIFFNESS},
         {"stiffness": but(NOT_A_FIT, FIT.slope), **NO_CROSSING},
+    ),
+    Row(
+        "critical_speed_intervals",
+        uncertainty.critical_speed_intervals,
+        {"stiffness": springs.Stiffness("k", 800.0, 0.0, 5), "robot": ROBOT, "bump": BUMP}
+        | {"vmin": 7.0, "vmax": 9.0, "level": 0.9},
+        {"stiffness": NOT_A_STIFFNESS, "level": [*NOT_POSITIVE, 1, 95]},
+        {"stiffness": NOT_A_FIT, **NO_CROSSING},
+    ),
+    Row(
+        "Stiffness.interval",
+        lambda value, error, free: springs.Stiffness("k", value, error, free).interval(),
+        {"value": 800.0, "error": 1.0, "free": 5},
+        {"value": NOT_A_NUMBER, "error": NOT_NONNEGATIVE, "free": but(NOT_WHOLE, *ZERO)},
     ),
     Row(
         "evaluations",
@@ -471,8 +540,11 @@ TABLE = [
     Row(
         "flight_errors",
         accuracy.flight_errors,
-        {"robot": ROBOT, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
-        {"steps": [[J] for J in [*NOT_WHOLE, *ZERO]]},
+        {"robot": WEIGHTLESS, "road": BUMP, "v": 5.0, "tfinal": 0.1, "steps": [20]},
+        {
+            "steps": [10, "20", None, len, *([J] for J in NOT_WHOLE)],
+            "road": [suspension.FlatRoad()],  # nothing moves
+        },
     ),
     Row(
         "just_lost",
@@ -578,6 +650,33 @@ TABLE = [
     ),
     Row("RoadProfile()", RoadProfile([0, 1], [0, 0.1]), {"x": T}, {"x": not_an_array(T)}),
     Row(
+        "RoadProfile.powers",
+        RoadProfile([0, 1], [0, 0.1]).powers,
+        {"x": [0.5, 0.6], "start": [0.5, 0.5]},
+        {"x": not_finite([0.5, 0.6]), "start": [*not_like([0.5, 0.5]), [0.5]]},
+    ),
+    Row(
+        "profile",
+        profile,
+        {"road": BUMP, "x": T},
+        {"road": NO_ROADS, "x": [*not_an_array(T), [np.nan]]},
+        {"road": NOT_AN_OBJECT},
+    ),
+    Row(
+        "under_wheels",
+        under_wheels,
+        {"robot": ROBOT, "road": BUMP, "X": T},
+        {"road": NO_ROADS, "X": not_an_array(T)},
+        NO_DRIVE,
+    ),
+    Row(
+        "road_input",
+        road_input,
+        DRIVE | {"t": T},
+        {"road": NO_ROADS, "v": NOT_A_NUMBER, "t": [*not_an_array(T), *OUTSIDE]},
+        NO_DRIVE,
+    ),
+    Row(
         "response",
         frequency.response,
         {"robot": ROBOT, "v": 1.2, "wavenumber": T},
@@ -625,15 +724,30 @@ TABLE = [
         "seen_mode",
         accuracy.seen_mode,
         {"scheme": RK4, "lam": -1 + 2j, "dts": [0.1, 0.2]},
-        {"dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]]},
+        {
+            "lam": [*not_an_array(1.0, complex_too=True), *OUTSIDE, complex(0, np.nan), [1j, 2j]],
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2], [0.2, 0.1], [0.1, 0.1]],
+        },
         {"scheme": NOT_A_SCHEME},
+    ),
+    Row(
+        "half_turn",
+        accuracy.half_turn,
+        {"seen": [50j, 50j], "dts": [0.1, 0.2]},
+        {
+            "seen": [
+                *not_an_array([1.0, 2.0], complex_too=True),
+                *(1j, [], [1j], [1j, 2j, 3j], [[1j, 2j]], [1j, np.nan], [np.inf, 1j]),
+            ],
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2], [0.2, 0.1], [0.1, 0.1], []],
+        },
     ),
     Row(
         "fitted_order",
         accuracy.fitted_order,
         {"dts": [0.1, 0.2], "errors": [1e-3, 4e-3]},
         {
-            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2]],
+            "dts": [*not_finite([0.1, 0.2]), [0.1, 0], [-0.1, 0.2], [0.1, 0.1], [1, 1]],
             "errors": [*not_an_array([1e-3, 4e-3]), [1.0, 2.0, 3.0], []],
         },
     ),
@@ -641,7 +755,10 @@ TABLE = [
         "just_lost",
         accuracy.just_lost,
         {"robot": ROBOT, "bump": BUMP, "critical": [0.437], "n": 1},
-        {"critical": not_finite([0.437]), "n": [*NOT_WHOLE]},
+        {
+            "critical": [*not_finite([0.437]), [8, 7], [7, 7], [7, 9, 8], [-1, 7], [0, 7], [-1]],
+            "n": [*NOT_WHOLE],
+        },
         {"robot": NOT_A_ROBOT, "bump": NOT_A_BUMP},
     ),
     *(
@@ -652,6 +769,34 @@ TABLE = [
             (accuracy.event_run, {}),
             (accuracy.missed_dip, {}),
         )
+    ),
+    Row(
+        "solve_ivp_errors at tolerances",
+        accuracy.solve_ivp_errors,
+        CROSS | {"method": "RK45", "tolerances": [1e-3]},
+        {"tolerances": [*not_finite([1e-3]), [0.0], [-1.0], [1e-3, np.nan], [1e-3, -1e-3]]},
+    ),
+    Row(
+        "make_flight_gfunc",
+        flight.make_flight_gfunc,
+        {"robot": ROBOT, "road": BUMP, "pressing": [True, False], "start": 0.1, "end": 0.2},
+        {
+            "road": NO_ROADS,
+            "pressing": [*but(not_like([1.0, 0.0]), None), [2.5, 3], [0.5, 1], [2, 0], [-1, 1]],
+            "start": [*NOT_A_NUMBER, 0.2, 0.3],
+            "end": [*but(NOT_A_NUMBER, None), 0.1, 0.0],
+        },
+        NO_DRIVE,
+    ),
+    Row(
+        "make_flight_gfunc()",
+        flight.make_flight_gfunc(ROBOT, BUMP),
+        {"w": np.zeros(4), "t": 0.1, "v": 1.2},
+        {
+            "w": [*not_an_array(np.zeros(4)), 0.0, [], np.zeros(3), np.zeros(8), np.zeros((4, 1))],
+            "t": NOT_A_NUMBER,
+            "v": NOT_A_NUMBER,
+        },
     ),
     Row(
         "flight_errors",
@@ -752,7 +897,11 @@ TABLE = [
         "way",
         similarity.way,
         CROSS | {"swings": 2.0},
-        {"v": [*not_an_array(1.0), 0, [1, -1], np.nan], "swings": NOT_NONNEGATIVE},
+        {
+            "v": [*not_an_array(1.0), 0, [1, -1], np.nan],
+            "swings": NOT_NONNEGATIVE,
+            "bump": [suspension.GaussianBump(centre=x) for x in (-10, -1)],
+        },
         NO_CROSSING,
     ),
     *(
@@ -766,7 +915,9 @@ TABLE = [
             also=(name, "height"),
         )
         for name, bad in [
-            *((name, NOT_POSITIVE) for name in ("nu", "j", "lam")),
+            ("nu", NOT_POSITIVE),
+            ("j", [*NOT_POSITIVE, 1e308]),
+            ("lam", [*NOT_POSITIVE, 1e200, 1e-200]),
             ("zeta", NOT_NONNEGATIVE),
             ("eta", NOT_A_NUMBER),
         ]
@@ -778,9 +929,9 @@ TABLE = [
             function.__name__,
             function,
             {"nu": 1.0, "zeta": 0.1},
-            {"nu": [0, "1"], "zeta": NOT_POSITIVE},
+            {"nu": [0, "1", *high], "zeta": [*NOT_POSITIVE, *high]},
         )
-        for function in (similarity.skim, similarity.still)
+        for function, high in ((similarity.skim, []), (similarity.still, [1e200, 1e300]))
     ),
     Row(
         "comb",
@@ -788,8 +939,18 @@ TABLE = [
         {"nu": 1.0, "j": 1.0, "lam": 3.0},
         {"nu": [0, "1"], "j": NOT_POSITIVE, "lam": NOT_POSITIVE},
     ),
-    Row("window_limit", similarity.window_limit, {"zeta": 0.1}, {"zeta": NOT_POSITIVE}),
-    Row("closing_limit", similarity.closing_limit, {"eta": 3.0}, {"eta": NOT_POSITIVE}),
+    *(
+        Row(
+            function.__name__,
+            function,
+            {name: 0.1},
+            {name: [*NOT_POSITIVE, 1e-300, 1e-150, 1e150, 1e300]},
+        )
+        for function, name in (
+            (similarity.window_limit, "zeta"),
+            (similarity.closing_limit, "eta"),
+        )
+    ),
     *(
         Row(
             function.__name__,
@@ -810,6 +971,13 @@ TABLE = [
         CROSS | {"samples": 11},
         {"v": NOT_POSITIVE, "samples": [*NOT_WHOLE, 10**12]},
         NO_CROSSING,
+    ),
+    Row(
+        "moments",
+        travel.moments,
+        {"flight": FLIGHT, "robot": ROBOT, "bump": BUMP, "distance": 1.0},
+        {"bump": UNDER_A_WHEEL, "distance": but(NOT_POSITIVE, None)},
+        {"flight": [*NOT_AN_OBJECT, flight.Flight, ROBOT, len], **NO_CROSSING},
     ),
     Row(
         "load_spring_data",
@@ -891,8 +1059,9 @@ TABLE = [
             "law": [TWO_LAWS],
             "v": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
             "zooms": [*NOT_NONNEGATIVE, 0.5, 18, 10**6],
+            "robot": SEVERAL_ROBOTS,
         },
-        {"law": NOT_A_LAW},
+        {"robot": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "law": NOT_A_LAW},
     ),
     Row(
         "zero_stops",
@@ -903,21 +1072,26 @@ TABLE = [
             "v": [*NOT_POSITIVE, 1e-300],
             "stops": [*not_an_array([1.0, 2.0]), 1.0, [1.0], [2, 1], [0, 1], [1, np.nan]],
             "zooms": [*NOT_NONNEGATIVE, 0.5],
+            "robot": SEVERAL_ROBOTS,
         },
-        {"law": NOT_A_LAW},
+        {"robot": but(NOT_A_ROBOT, NOT_AN_OBJECT[9]), "law": NOT_A_LAW},
     ),
     Row(
         "follow_speed",
         measured.follow_speed,
         {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": 20.0},
-        {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300]},
+        {"law": [LAW], "v": [*NOT_POSITIVE, 1e-300], "robot": SEVERAL_ROBOTS},
         {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
         "follow_speeds",
         measured.follow_speeds,
         {"robot": ROBOT, "law": TWO_LAWS, "road": BUMP, "v": [20.0]},
-        {"law": [LAW], "v": [*not_an_array([1.0, 2.0]), 1.0, [[1.0]], [0, 1], [1e-300]]},
+        {
+            "law": [LAW],
+            "v": [*not_an_array([1.0, 2.0]), 1.0, [[1.0]], [0, 1], [1e-300]],
+            "robot": SEVERAL_ROBOTS,
+        },
         {"law": NOT_A_LAW, "road": NOT_AN_OBJECT},
     ),
     Row(
