@@ -138,7 +138,7 @@ def main(book):
     live = [page for page in pages if MARK in (book / page).read_text(encoding="utf-8")]
     if not live:
         sys.exit(f"no page with an explorer in {book}")
-    with serve_files(book) as address, start_chromium(find_chromium()) as browser:
+    with serve_files(book) as address, start_chromium(find_chromium(whole=True)) as browser:
         for live_page in live:
             print(f"{live_page}")
             url = address + live_page.as_posix()

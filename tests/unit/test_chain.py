@@ -16,6 +16,8 @@ from suspension.problem import DELTA_MAX, SPEEDS
 from suspension.springs import fit_spring
 from suspension.uncertainty import _within, critical_speed_intervals, loss_probability
 
+pytestmark = pytest.mark.slow  # Node runs beside the package
+
 VMIN, VMAX = 0.25, 12.0  # m/s: all that is asked for
 SETS = 60
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
@@ -149,7 +151,6 @@ def test_critical_speeds_are_the_packages_within_the_tables_error(asked):
     assert partial  # some come or go within an interval
 
 
-@pytest.mark.slow
 def test_critical_speeds_are_those_of_uncertainty(asked):
     """The whole way of the package, for a few of the sets."""
     sets, _, answer = asked
@@ -166,7 +167,6 @@ def test_critical_speeds_are_those_of_uncertainty(asked):
     assert done == 3
 
 
-@pytest.mark.slow
 def test_the_confidence_of_a_verdict_is_that_of_uncertainty(asked):
     sets, _, answer = asked
     low, high = chain().facts["k"]

@@ -79,6 +79,7 @@ def test_best_compromises_are_those_that_nothing_beats():
         assert best[i] != beaten
     assert efficient([[1, 1], [1, 1]]).all()
     assert list(efficient([[1, 2], [1, 1], [1, 1], [0, 3]])) == [False, True, True, True]
+    assert list(efficient([[1, 2, 0], [1, 1, 0]])) == [False, True]
 
 
 @pytest.mark.slow
@@ -140,9 +141,10 @@ def test_nothing_beyond_the_farthest_keeps_contact(name):
 
 def test_the_farthest_is_none_or_at_the_end_of_the_grid():
     assert farthest(ROBOT, BUMP, ASKED, K[-3:], C, "k") is None
-    free = farthest(ROBOT, BUMP, [0.25], K, C, "k")
-    np.testing.assert_allclose(free.robot.k1, K[-1])
-    assert free.margin > 0
+    for name, end in (("k", K[-1]), ("c", C[-1])):
+        free = farthest(ROBOT, BUMP, [0.25], K, C, name)
+        np.testing.assert_allclose(getattr(free.robot, f"{name}1"), end)
+        assert free.margin > 0
 
 
 @pytest.mark.parametrize("other", [{"k2": 700}, {"c1": 0, "c2": 0}, {"c2": 2}])

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from suspension.contact import normal_forces
 from suspension.course import RK4
 from suspension.critical import critical_speeds
-from suspension.flight import Event, Flight, _first_switch, fly, make_flight_gfunc
+from suspension.flight import Event, Flight, _edges, _first_switch, fly, make_flight_gfunc
 from suspension.least_force import margin
 from suspension.road import ISO_8608, FlatRoad, GaussianBump, RoadProfile, RoughRoad, road_input
 from suspension.robot import Robot
@@ -723,6 +723,11 @@ def test_gfunc_makes_nan_of_a_state_that_is_none():
         assert np.isnan(N).all() and np.isnan(wdot).all()
 
 
+def test_edges_lie_within_their_interval():
+    assert _edges(lambda t: np.array([t - 1.2]), 0, 1) == []
+    assert _edges(lambda t: np.array([t - 0.3]), 0, 1) == pytest.approx([0.3])
+
+
 def test_gfunc_gives_the_forces_it_uses():
     gfunc, w = make_flight_gfunc(ROBOT, BUMP), np.array([0, 0.1, 0.05, 0])
     wdot, N1, N2 = gfunc(w, 0.1, 1.2)
@@ -733,6 +738,8 @@ def test_gfunc_gives_the_forces_it_uses():
     pulled = gfunc(np.array([-0.001, 1, 0, 0]), 0, 0)  # on the ground, its damper pulls
     np.testing.assert_allclose(pulled[0], [1, -ROBOT.g, 0, 0])
     assert pulled[1:] == (0, 0)
+    light = gfunc(np.array([-0.5 / 800, 0, 0, 0]), 0, 0)  # half a newton is a force as well
+    np.testing.assert_allclose(light[1:], [0.5, 0.5])
     linear = make_flight_gfunc(ROBOT, BUMP, (True, True), start=0.04)
     u = road_input(ROBOT, BUMP, 1.2, 0.1)
     np.testing.assert_allclose(linear(w, 0.06, 1.2)[0], ROBOT.A @ w + ROBOT.B @ u + ROBOT.e)

@@ -17,6 +17,8 @@ from suspension.explorer import Game
 from suspension.explorer.game import air, goal_on, unknown_roads
 from suspension.problem import DISTANCE, SPEEDS
 
+pytestmark = pytest.mark.slow  # Node runs beside the package
+
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
 K, C = np.geomspace(100, 3200, 13), np.geomspace(0.3, 15, 13)
 LOAD = ROBOT.m * ROBOT.g / 2
@@ -75,7 +77,6 @@ def drives(tmp_path_factory):
     return list(zip(attempts, ask(tmp_path_factory.mktemp("drives"), game().facts, attempts)))
 
 
-@pytest.mark.slow
 def test_margins_are_those_of_the_package(drives):
     assert len(drives) == 240
     states = []
@@ -89,7 +90,6 @@ def test_margins_are_those_of_the_package(drives):
     assert min(map(states.count, ("kept", "lost"))) > 200
 
 
-@pytest.mark.slow
 def test_first_losses_are_those_of_the_package(drives):
     for (level, k, c), page in drives:
         road, robot = game().levels[level][0], fitted_with(ROBOT, k, c)
@@ -112,7 +112,6 @@ def test_margins_and_verdicts_of_a_small_game_are_those_of_the_package(tmp_path)
         assert page["isReached"] == found.reached
 
 
-@pytest.mark.slow
 def test_distance_and_verdict_are_those_of_the_package(drives):
     for (level, k, c), page in drives:
         distance = np.hypot(np.log(k / 800), np.log(c / 1.5))  # the definition of Part X
@@ -126,7 +125,6 @@ def test_distance_and_verdict_are_those_of_the_package(drives):
         assert page["air"] == pytest.approx(found.air, abs=PARITY)
 
 
-@pytest.mark.slow
 def test_the_part_in_the_air_is_that_of_fly(drives):
     flown = 0
     for (level, k, c), page in drives[::6]:
@@ -142,7 +140,6 @@ def test_the_part_in_the_air_is_that_of_fly(drives):
     assert flown > 40
 
 
-@pytest.mark.slow
 def test_the_map_is_right_to_a_thousandth_of_the_load(drives):
     for (level, k, c), page in drives:
         exact = [lane["margin"] for lane in page["lanes"]]
@@ -150,7 +147,6 @@ def test_the_map_is_right_to_a_thousandth_of_the_load(drives):
         assert (np.abs(np.subtract(page["sketch"], exact)) < 2e-3 * scale).all(), (level, k, c)
 
 
-@pytest.mark.slow
 def test_the_answers_to_beat_are_those_of_part_ten(tmp_path):
     attempts = []
     for level, (road, goal) in enumerate(game().levels):
@@ -166,7 +162,6 @@ def test_the_answers_to_beat_are_those_of_part_ten(tmp_path):
     assert not any(page["isReached"] for page in ask(tmp_path, game().facts, nearer))
 
 
-@pytest.mark.slow
 def test_unknown_roads_are_the_same_each_time_and_worth_playing():
     roads = [road for road, _ in game().levels[1:]]
     again = unknown_roads(ROBOT, BUMP, SPEEDS, K, C, distance=DISTANCE)
@@ -180,7 +175,6 @@ def test_unknown_roads_are_the_same_each_time_and_worth_playing():
     assert distances == sorted(distances)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", STIFFNESSES[::3])
 def test_every_spring_has_a_game(stiffness, tmp_path):
     robot = Robot(stiffness, stiffness)
@@ -199,7 +193,6 @@ def test_every_spring_has_a_game(stiffness, tmp_path):
         assert "Contact is lost at no speed" in own.alt
 
 
-@pytest.mark.slow
 def test_where_no_suspension_keeps_contact_the_air_is_what_counts(tmp_path):
     high = replace(BUMP, height=0.25)
     grid = np.geomspace(100, 3200, 4), np.geomspace(0.3, 15, 4)
@@ -217,7 +210,6 @@ def test_where_no_suspension_keeps_contact_the_air_is_what_counts(tmp_path):
     assert own.judge(800, 1.5).air == pytest.approx(present["air"], abs=PARITY)
 
 
-@pytest.mark.slow
 def test_a_robot_that_nothing_betters_is_told_so():
     best = goal_on(ROBOT, BUMP, SPEEDS, K, C).best
     flat = replace(BUMP, height=1e-6)
@@ -251,7 +243,6 @@ def forces_at(flight, t):
     return np.array([np.interp(t, flight.T, N) for N in flight.N])
 
 
-@pytest.mark.slow
 def test_tones_follow_the_forces_and_are_silent_in_flight(heard):
     silent = 0
     for robot, road, lane, score, _ in heard:
@@ -290,7 +281,6 @@ def test_pitch_and_loudness_of_a_force_are_exact(tmp_path):
     )
 
 
-@pytest.mark.slow
 def test_each_event_has_its_sounds_at_its_time_on_its_side(heard):
     knocks = 0
     for robot, road, lane, score, events in heard:
@@ -316,7 +306,6 @@ def test_each_event_has_its_sounds_at_its_time_on_its_side(heard):
     assert knocks > 60
 
 
-@pytest.mark.slow
 def test_all_that_is_heard_is_said(heard):
     for _, _, lane, score, events in heard:
         first, *told, last = score["captions"]
@@ -333,7 +322,6 @@ def test_all_that_is_heard_is_said(heard):
 # --- the instrument -------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_a_page_gets_a_still_picture_and_all_that_its_script_needs():
     html = game().html()
     assert 'class="suspension-laboratory se-game"' in html

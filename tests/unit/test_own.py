@@ -34,6 +34,8 @@ from suspension.road import RoadProfile
 from suspension.similarity import Groups, follow, groups, skim, throw
 from suspension.springs import load_vehicles
 
+pytestmark = pytest.mark.slow  # Node runs beside the package
+
 ROBOT, BUMP = Robot(800, 800), GaussianBump()
 CASES = 60
 PARITY = 1e-9
@@ -222,7 +224,6 @@ def margins(own, v):
     return _least(own.robot, own.road, v, own.distance).min(axis=0)
 
 
-@pytest.mark.slow
 def test_critical_speeds_are_where_the_package_s_margin_changes_its_sign(searched):
     """Each is found to 1e-9, and between 300 others there is none."""
     count = 0
@@ -270,7 +271,6 @@ def test_a_first_look_finds_those_that_are_apart(searched):
     assert same > 30
 
 
-@pytest.mark.slow
 def test_a_thorough_search_finds_what_the_package_s_does(searched):
     for kind, most in (("bump", 4), ("points", 3)):
         found = [pair for pair in zip(*searched, strict=True) if pair[0]["ground"]["kind"] == kind]
@@ -320,7 +320,6 @@ def test_the_lines_one_takes_away_give_the_same_numbers(asked, monkeypatch):
             close([answer["groups"][name] for name in Groups._fields], names["numbers"])
 
 
-@pytest.mark.slow
 def test_the_lines_run_as_they_stand(searched, capsys):
     for n in (0, 1):
         exec(searched[1][n]["python"], {})

@@ -75,6 +75,7 @@ def by_dop853(robot, road, v, distance):
     return (np.concatenate(part, axis=-1) for part in zip(*found))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pchip", "linear"])
 @pytest.mark.parametrize("name", ROBOTS)
 def test_least_forces_are_those_of_a_tight_solver(name, kind):
@@ -104,6 +105,7 @@ def test_forces_between_samples_are_those_of_a_tight_solver(name):
     near(mine[:, inside], N[:, inside], 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("road", [STEP, rough(3), rough(4, kind="linear")])
 def test_the_first_loss_is_the_flight_s_first_lift_off(road):
     for robot in (ROBOT, LOPSIDED):

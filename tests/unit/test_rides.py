@@ -32,6 +32,7 @@ def test_where_nothing_flies_the_ground_has_nothing_to_let_go():
     assert not pushes.flights.any() and not pushes.air.any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("v", [1.2, 5])
 @pytest.mark.parametrize("robot", [ROBOT, ODD])
 def test_the_second_round_is_that_of_a_flight(robot, v):

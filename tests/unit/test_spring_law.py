@@ -96,6 +96,7 @@ def test_the_stiffest_slope_is_that_of_the_steepest_place(law):
 
 def test_of_a_fit_it_has_its_coefficients():
     fit = fitted(793, preload=0.4, curvature=1.0)
+    assert SpringLaw.of(fit).stop == 0
     law = SpringLaw.of(fit, 8000)
     assert [law.beta0, law.beta1, law.beta2] == list(fit.beta)
     assert (law.delta_max, law.stop) == (DELTA_MAX, 8000)

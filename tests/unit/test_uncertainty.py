@@ -203,3 +203,14 @@ def test_the_probability_of_a_loss_is_the_share_of_stiffnesses_that_lose(v):
 def test_far_from_a_critical_speed_the_verdict_is_certain(v, lost):
     assert loss_probability(known_to(40, 800), ROBOT, BUMP, v) == pytest.approx(lost, abs=1e-6)
     assert loss_probability(Stiffness("exact", 800.0, 0.0, 18), ROBOT, BUMP, v) == lost
+
+
+def test_a_stiffness_that_is_known_to_roundoff_is_known():
+    """Its speeds are points; and where it just keeps contact there is a verdict, no chance."""
+    v = critical_speeds(ROBOT, BUMP, 0.3, 30)[0]
+    sure, unsure = (Stiffness("near", 800.0, error, 18) for error in (1e-7, 1e-5))
+    assert loss_probability(sure, ROBOT, BUMP, v) in (0, 1)
+    assert 0 < loss_probability(unsure, ROBOT, BUMP, v) < 1
+    for stiffness, is_point in ((sure, True), (unsure, False)):
+        found = critical_speed_intervals(stiffness, ROBOT, BUMP, 0.3, 30)
+        assert all((part.low == part.high) == is_point for part in found)

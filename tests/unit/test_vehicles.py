@@ -27,6 +27,7 @@ def in_metres(vehicle):
     return robot, GaussianBump(bump.height, bump.sigma, L + 8 * bump.sigma), far
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vehicle", VEHICLES)
 def test_contact_is_that_of_the_vehicle_in_metres(vehicle):
     robot, bump, far = in_metres(vehicle)
@@ -36,6 +37,7 @@ def test_contact_is_that_of_the_vehicle_in_metres(vehicle):
     assert list(found.lost) == list(ours.lost) and found.unit == "km/h"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vehicle", VEHICLES)
 def test_its_numbers_are_those_of_a_mass_on_a_spring(vehicle):
     robot, bump, far = in_metres(vehicle)
@@ -49,6 +51,7 @@ def test_its_numbers_are_those_of_a_mass_on_a_spring(vehicle):
         assert (np.diff(highest_bump(robot, bump, v, distance=far)) < 0).all()
 
 
+@pytest.mark.slow
 def test_a_heavy_wheel_is_lifted_where_its_own_weight_and_spring_cannot_hold_it():
     for vehicle in load_vehicles().itertuples():
         bump, found = as_bump(vehicle.height, vehicle.length), passage(vehicle)
