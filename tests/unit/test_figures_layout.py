@@ -51,6 +51,7 @@ def test_a_legend_outside_a_panel_goes_to_the_foot(place):
     assert [text.get_text() for text in legend.get_texts()] == ["a curve"]
 
 
+@pytest.mark.filterwarnings("ignore:constrained_layout not applied")  # so wide is the legend first
 def test_a_wide_legend_takes_fewer_columns():
     figure, (ax,) = drawn()
     for i in range(5):

@@ -270,6 +270,7 @@ def test_a_road_with_kinks_flies_as_in_fine_steps(name, v, wheel):
         np.testing.assert_allclose(flight.W[:, -1], w, atol=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "v, switches",
     [*(pytest.param(*one, marks=pytest.mark.slow) for one in ((3, 7), (5, 6))), (10, 4)],

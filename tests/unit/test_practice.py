@@ -842,6 +842,7 @@ def test_a_right_answer_passes_in_any_style(name):
         assert said, (said, source)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLANTED)
 def test_each_mistake_is_told_by_its_own_words(name):
     told = {}

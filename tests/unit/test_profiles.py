@@ -94,6 +94,7 @@ def test_least_forces_are_those_of_a_tight_solver(name, kind):
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_forces_between_samples_are_those_of_a_tight_solver(name):
     robot, road, v = ROBOTS[name], rough(7), 1.7
@@ -129,6 +130,7 @@ def test_a_wheel_may_be_lost_in_a_jump():
     assert N[:, X < top - 1e-6].min() > 0 > N[1, X > top + 1e-6].max()
 
 
+@pytest.mark.slow
 def test_a_bump_in_many_pieces_is_the_bump():
     bump = GaussianBump()
     x = np.linspace(0.11, 0.49, 1201)

@@ -87,6 +87,7 @@ def test_without_a_term_it_is_the_exact_margin_and_with_all_a_rigid_body(robot, 
     assert margin_with(robot, BUMP, v, TERMS) == pytest.approx(rigid, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_places_of_the_wheels_matter_most_and_every_term_a_little():
     v = critical_speeds(ROBOT, BUMP, 0.1, 1)[0]
     changes = {term: margin_with(ROBOT, BUMP, v, [term]) for term in TERMS}
@@ -94,6 +95,7 @@ def test_the_places_of_the_wheels_matter_most_and_every_term_a_little():
     assert changes["places"] > 5 * max(abs(changes["heights"]), abs(changes["levers"]))
 
 
+@pytest.mark.slow
 def test_what_each_term_does_to_a_force_is_of_third_order_in_the_angle():
     # Bump and gravity are scaled alike, so all motions are, and every angle.
     low = GaussianBump(height=BUMP.height / 4)

@@ -205,6 +205,7 @@ def test_far_from_a_critical_speed_the_verdict_is_certain(v, lost):
     assert loss_probability(Stiffness("exact", 800.0, 0.0, 18), ROBOT, BUMP, v) == lost
 
 
+@pytest.mark.slow
 def test_a_stiffness_that_is_known_to_roundoff_is_known():
     """Its speeds are points; and where it just keeps contact there is a verdict, no chance."""
     v = critical_speeds(ROBOT, BUMP, 0.3, 30)[0]

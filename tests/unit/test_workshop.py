@@ -319,6 +319,7 @@ def test_puzzles_are_won_by_what_they_ask_for_alone(workshop, known, tmp_path):
     assert "stands still" in found[1]["puzzles"][2]["words"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [250, 800, 2300])
 def test_no_method_of_the_kind_has_a_longer_step(k):
     eigenvalues = Robot(k, k).eigenvalues
