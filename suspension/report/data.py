@@ -4,6 +4,7 @@ import numpy as np
 
 from suspension._readings import NOISE, RESOLUTION, SEED, TRUE_STIFFNESS
 from suspension.report.words import (
+    ROUNDOFF,
     SPACE,
     count,
     fixed,
@@ -14,6 +15,7 @@ from suspension.report.words import (
     quantity,
 )
 from suspension.springs import is_synthetic
+from suspension.uncertainty import EXACT
 
 __all__ = [
     "caution",
@@ -86,7 +88,7 @@ def data_rows(data):
 
 def _decimals(values):
     for decimals in range(4):
-        if np.allclose(values, np.round(values, decimals), rtol=0, atol=1e-9):
+        if np.allclose(values, np.round(values, decimals), rtol=0, atol=ROUNDOFF):
             return decimals
     return 4
 
@@ -180,7 +182,7 @@ def stiffness_rows(fit, load):
 
 def _exact(stiffness):
     """Whether the readings lie on the curve, so that roundoff is all the error there is."""
-    return stiffness.error < 1e-9 * stiffness.value
+    return stiffness.error <= EXACT * stiffness.value
 
 
 def _decimals_for(error):

@@ -4,7 +4,16 @@ import numpy as np
 
 from suspension.frequency import speed_in_step
 from suspension.problem import SPEEDS
-from suspension.report.words import SPACE, fixed, join, number, quantity, ranges, speed_list
+from suspension.report.words import (
+    ROUNDOFF,
+    SPACE,
+    fixed,
+    join,
+    number,
+    quantity,
+    ranges,
+    speed_list,
+)
 from suspension.schemes import CRANK_NICOLSON, RK4
 
 __all__ = ["answers", "experiments", "presets"]
@@ -216,4 +225,5 @@ def _ms(t):
     >>> _ms(0.05), _ms(0.0743633)
     ('50\\xa0ms', '74.4\\xa0ms')
     """
-    return f"{fixed(1000 * t, 0 if abs(1000 * t - round(1000 * t)) < 1e-9 else 1)}{SPACE}ms"
+    is_whole = abs(1000 * t - round(1000 * t)) < ROUNDOFF
+    return f"{fixed(1000 * t, 0 if is_whole else 1)}{SPACE}ms"

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from suspension.forces import WHEEL
-from suspension.report.words import SPACE, fixed, number, seconds
+from suspension.report.words import ROUNDOFF, SPACE, fixed, number, seconds
 
 __all__ = [
     "SYMBOLS",
@@ -78,7 +78,7 @@ def verdict(run, compression=None):
 
 def _place(x, spacing):
     """A place read from samples, no finer than they are: 1.2 mm apart, in whole millimetres."""
-    return fixed(x, max(0, math.ceil(-math.log10(spacing) - 1e-9)))
+    return fixed(x, max(0, math.ceil(-math.log10(spacing) - ROUNDOFF)))
 
 
 def _least(run, wheel):

@@ -37,7 +37,7 @@ def heights_table(speeds, heights, bump, lost):
     Parameters
     ----------
     speeds, heights : sequence of float
-        m/s and m.
+        m/s and m; inf where a bump of any height is crossed with contact.
     bump : float
         Height of the problem's, m.
     lost : sequence of bool
@@ -48,7 +48,7 @@ def heights_table(speeds, heights, bump, lost):
         [
             {
                 "v (m/s)": f"{v:g}",
-                "highest bump (mm)": number(1000 * height),
+                "highest bump (mm)": number(1000 * height) if np.isfinite(height) else "any",
                 this: "lost" if gone else "kept",
             }
             for v, height, gone in zip(speeds, heights, lost, strict=True)

@@ -30,6 +30,7 @@ __all__ = [
 ]
 
 SPACE = "\u00a0"  # does not break a line
+ROUNDOFF = 1e-9  # so far is a number with a few decimals from the one that is meant, at most
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

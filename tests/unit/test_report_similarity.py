@@ -81,6 +81,7 @@ def test_each_speed_has_its_highest_bump_and_the_verdict_on_ours():
     assert "| the bump, 25.4 mm |" in text
     assert "| 0.25 | 117 | kept |" in text and "| 1.2 | 5.72 | lost |" in text
     sound(text)
+    assert "| 3 | any | kept |" in plain(part.heights_table([3], [np.inf], 0.0254, [False]))
 
 
 @pytest.mark.slow
