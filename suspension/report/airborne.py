@@ -123,7 +123,7 @@ def who_flies(flights, linear):
     every = "each" if len(fliers) == len(flights) else speed_list(fliers)
     return (
         f"Of the {count(len(flights), 'speed')} the robot flies at {every}. Up to the first "
-        "lift-off the flight *is* the linear solution. After it, the linear model pulls the body "
+        "lift-off the run *is* the linear solution. After it, the linear model pulls the body "
         f"down where nothing holds it: it claims forces down to {claims}, which do not exist."
     )
 
@@ -145,7 +145,7 @@ def geometry_table(asked, small, full):
                 "contact lost at X (m)": "–" if run.kept[i] else fixed(run.lost[i], 4),
                 "largest pitch (degrees)": fixed(np.degrees(run.pitch[i]), 1),
                 "in the air, rear and front (ms)": " and ".join(
-                    fixed(1e3 * t, 1) for t in run.airtime[:, i]
+                    fixed(1e3 * t, 0) for t in run.airtime[:, i]
                 ),
                 "acceleration (m/s²)": number(run.acceleration[i]),
             }

@@ -117,9 +117,9 @@ def verdict_table(asked, runs):
     ]
     note = []
     if any(run.kept.any() for run in runs.values()):
-        note.append("*Kept* with the least force of both wheels.")
+        note.append("Beside *kept* stands the least force on either wheel.")
     if first:
-        note.append("*Lost* with the place $X$ of the body then.")
+        note.append("Beside *lost* stands the place $X$ of the body at the loss.")
     if len(first) == 1:
         note.append(f"It is always the {first.pop()} wheel that leaves the ground first.")
     return f"{table(rows)}\n\n{' '.join(note)}"
@@ -147,8 +147,10 @@ def verdict_sentence(asked, runs):
     words = [f"At {speed_list(same)} every law gives the verdict of the {line}."] if same else []
     for (kept, names), speeds in turned.items():
         was, now = ("kept", "lost") if kept else ("lost", "kept")
+        alike = [line, *(name for name, _ in others if name not in names)]
         words.append(
-            f"At {speed_list(speeds)} contact is {was} on the {line} and **{now}** on {_on(names)}."
+            f"At {speed_list(speeds)} contact is {was} on {_on(alike)} and **{now}** on "
+            f"{_on(names)}."
         )
     return " ".join(words)
 
@@ -384,16 +386,20 @@ def power_table(curvature, noticed, moved):
     )
 
 
-def draws_sentence(kept, drawn, linear):
-    """How many draws are those of a spring; `linear`: the readings do not contradict a line."""
+def draws_sentence(kept, drawn, followed, linear):
+    """What was drawn and what of it is left out, and for how many draws the critical speeds follow.
+
+    `kept` of the `drawn` ones are those of a spring; `linear`: the readings contradict no line.
+    """
     words = f"{drawn} draws of the three coefficients at once"
     if kept == drawn:
-        words += "; in every one of them the force grows up to the stop."
+        words += "; in every one the force grows up to the stop."
     else:
         words += (
             f"; {drawn - kept} are left out because their parabola bends down before "
             r"$\delta_{\max{}}$, which no spring does: the intervals leave this doubt aside."
         )
+    words += f" The critical speeds are followed for the first {min(followed, kept)} of them."
     if not linear:
         words += (
             " The readings contradict the line, which is kept here because the problem set asks "
@@ -449,10 +455,11 @@ def sign_table(study):
     ]
     n = study.line.share(0).n
     note = (
-        "*Kept* and *lost* are what all draws say, *kept* with the 95 % interval of the margin; "
-        f"else there is the share of draws that lose contact. If {n} draws agree, up to "
-        f"{percent(Share(0, n).high)} of doubt is left (the 95 % bound for as many independent "
-        f"ones). Signed is what every law says with less than {percent(SURE)} of doubt."
+        "*Kept* and *lost* stand where all draws agree, *kept* with the 95 % interval of the "
+        "margin; elsewhere stands the share of draws that lose contact. If "
+        f"{n} draws agree, up to {percent(Share(0, n).high)} of doubt is left (the 95 % bound for "
+        "as many independent ones). A verdict is signed if every law gives it with less than "
+        f"{percent(SURE)} of doubt."
     )
     return f"{table(rows)}\n\n{note}"
 
@@ -545,12 +552,18 @@ def _readings_or_law(study):
 
 def _measure(study):
     beyond = np.extract(study.touched, study.asked)
+    hangs = np.extract(study.touched & study.turned, study.asked)
+    if beyond.size and not hangs.size:
+        return (
+            f"At {speed_list(beyond)} the spring goes beyond $\\delta_{{\\max{{}}}}$. No verdict "
+            "hangs on what it meets there. The forces do: measure where the stop is and how stiff."
+        )
     if not beyond.size:
         return (
             r"At none of the asked speeds does the spring go beyond $\delta_{\max{}}$: the stop "
             "does not matter there."
         )
     return (
-        f"Before anyone relies on a run at {speed_list(beyond)}, press the spring on to its stop. "
+        f"Before anyone relies on a run at {speed_list(hangs)}, press the spring on to its stop. "
         "Measure where the stop is and how stiff: no reading below it can tell."
     )

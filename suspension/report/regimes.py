@@ -361,7 +361,7 @@ def consequence_table(by_stiffness):
 
 
 def other_readings(by_stiffness):
-    """Whether the other readings of the data move a critical speed out of the asked one's interval.
+    """Whether another stiffness of the data moves a critical speed out of the first one's interval.
 
     Parameters
     ----------
@@ -369,10 +369,11 @@ def other_readings(by_stiffness):
         From `suspension.uncertainty.critical_speeds_by_stiffness`, the asked stiffness first.
     """
     asked, *others = [[c for c in speeds if c.speed is not None] for _, speeds in by_stiffness]
+    name = by_stiffness[0][0].name
     if any(len(speeds) != len(asked) for speeds in others):
-        return "The readings do not even agree on how many critical speeds there are."
+        return "The stiffnesses do not even agree on how many critical speeds there are."
     if not asked:
-        return "By none of the readings is there a critical speed in the range."
+        return "With none of the stiffnesses is there a critical speed in the range."
     outside = [
         number(own.speed, speed_digits(own.low, own.high))
         for own, *moved in zip(asked, *others, strict=True)
@@ -380,12 +381,12 @@ def other_readings(by_stiffness):
     ]
     if outside:
         return (
-            f"Another reading moves {join(outside)}{SPACE}m/s **out of** the interval that belongs "
-            "to the asked stiffness."
+            f"Another stiffness moves {join(outside)}{SPACE}m/s **out of** the interval of the "
+            f"{name}."
         )
     return (
-        "Whichever reading one takes, each critical speed stays inside the interval that belongs "
-        "to the asked stiffness."
+        "With either of the other stiffnesses each critical speed stays inside the interval of the "
+        f"{name}."
     )
 
 
@@ -415,7 +416,7 @@ def confidence_table(asked):
 def confidence_note(asked, stiffness):
     """On which stiffness, N/m, and on which spring, the table of the `Asked` speeds rests."""
     words = (
-        "The margins, and where the verdict flips, are those of the asked stiffness, "
+        "The margins, and where the verdict flips, are those of the stiffness asked for, "
         f"{quantity(stiffness, 'N/m', 4)}; the confidence is given for each way to read the "
         "stiffness from the data."
     )
@@ -493,7 +494,7 @@ def doubt(regimes, beyond, delta_max, tilt):
     """
     limit = rf"$\delta_{{\max}}$ = {fixed(1000 * delta_max, 1)}{SPACE}mm"
     where = beyond_words(regimes, beyond)
-    spring = f"No spring is compressed beyond {limit}, as far as it was measured."
+    spring = f"No spring is compressed beyond {limit}, where its measurement ends."
     if where:
         spring = (
             f"While both wheels still press, a spring is compressed beyond {limit} {where}. "

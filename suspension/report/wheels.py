@@ -177,11 +177,15 @@ def heaviest_sentence(regimes, v, mass, body):
     where = f"the window from {number(low)} to {number(high)}{SPACE}m/s"
     if np.isinf(most):
         return f"In a part of {where} a wheel may weigh what it likes."
-    return (
-        f"**Faster is safer for wheels lighter than {grams(most)} a pair, "
-        f"{percent(most / body, 1)} of the mass of the body, and for no others**: in {where}, "
-        "where wheels without mass keep contact, a heavier one leaves the ground at every speed."
+    words = (
+        f"**Faster is safer for light wheels only.** In {where}, where wheels without mass keep "
+        f"contact, a pair may weigh {grams(most)} at best, {percent(most / body, 1)} of the mass "
+        "of the body"
     )
+    half = v[inside & (mass >= most / 2)].max(initial=low)
+    if (inside & (v > half)).any():
+        words += f", and less than half of that above {number(half, 2)}{SPACE}m/s"
+    return f"{words}."
 
 
 def energy_caption(v):
@@ -217,7 +221,7 @@ def energy_sentence(energy, landings):
         return f"{words} No wheel lands on the way."
     return (
         f"{words} Of this heat {percent(sum(landing.heat for landing in landings) / heat)} arises "
-        f"between the {count(len(landings), 'landing')} and the lift-offs that follow them."
+        f"on the ground after the {count(len(landings), 'landing')}."
     )
 
 

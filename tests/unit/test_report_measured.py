@@ -95,7 +95,7 @@ def test_all_texts_are_sound(name):
         *part.run_caption(10, {"line": (np.arange(3), np.arange(3) / 99, np.arange(3))}, 0.0165),
         part.limit_table(eigenvalues, 0.001),
         part.power_table([0.1, 0.5], fit.power(0, [0.1, 0.5]), [1.0, 5.0]),
-        part.draws_sentence(4, 4, True),
+        part.draws_sentence(4, 4, 2, True),
         part.critical_table(study),
         part.sign_table(study),
         part.how_many_signed(study),
@@ -180,13 +180,13 @@ def test_which_verdicts_turn_is_answered(line, stop, words):
 def test_a_table_tells_where_contact_is_lost():
     table = plain(part.verdict_table(ASKED, {"line": run(5, -1)}))
     assert "kept, 5.00 N" in table and "lost, 0.2000 m" in table
-    assert "always the front wheel" in table and "*Kept*" in table and "*Lost*" in table
+    assert "always the front wheel" in table and "*kept*" in table and "*lost*" in table
     both = run(-5, -1)
     both.wheel[:] = 1, 2
     table = plain(part.verdict_table(ASKED, {"line": both}))
     assert "lost, rear, 0.2000 m" in table and "lost, front, 0.2000 m" in table
-    assert "always" not in table and "*Kept*" not in table
-    assert "*Lost*" not in part.verdict_table(ASKED, {"line": run(5, 1)})
+    assert "always" not in table and "*kept*" not in table
+    assert "*lost*" not in part.verdict_table(ASKED, {"line": run(5, 1)})
 
 
 def test_the_full_geometry_turns_a_verdict_or_does_not():
@@ -287,10 +287,12 @@ def test_the_caption_tells_the_observed_orders():
 
 
 def test_draws_that_are_no_springs_are_told():
-    assert "every one" in part.draws_sentence(8, 8, True)
-    assert "3 are left out" in part.draws_sentence(5, 8, True)
-    assert "contradict the line" in part.draws_sentence(8, 8, False)
-    assert "contradict" not in part.draws_sentence(8, 8, True)
+    assert "every one" in part.draws_sentence(8, 8, 4, True)
+    assert "followed for the first 4 of them" in part.draws_sentence(8, 8, 4, True)
+    assert "3 are left out" in part.draws_sentence(5, 8, 6, True)
+    assert "the first 5 of them" in part.draws_sentence(5, 8, 6, True)
+    assert "contradict the line" in part.draws_sentence(8, 8, 4, False)
+    assert "contradict" not in part.draws_sentence(8, 8, 4, True)
 
 
 def test_a_curvature_is_noticed_or_not():
@@ -360,7 +362,9 @@ def test_the_conclusions_follow_from_the_tables():
     assert "At 10 m/s the verdict is **open**: it is decided by" in text
     assert "only 0.4 m/s stays" in text and "8 m/s belongs" in text
     assert "The law decides and the readings do not: at 10 m/s" in text
-    assert "press the spring" in text and "no reading below it" in text
+    assert "a run at 10 m/s, press the spring" in text and "no reading below it" in text
+    alike = conclude((5, -1), (5, -1), critical)
+    assert "No verdict hangs on what it meets there" in alike and "press the spring" not in alike
     text = conclude((5, -1), (5, -1), {"line": [0.4], "stop": [0.4]}, compression=0.01)
     assert "no reading below it" not in text
     assert "kept at 0.25 m/s and lost at 10 m/s" in text

@@ -298,10 +298,10 @@ def by_stiffness(*speeds):
 @pytest.mark.parametrize(
     ("speeds", "words"),
     [
-        (([0.436, 7.85], [0.437, 7.94], [0.437, 8.00]), "each critical speed stays inside"),
+        (([0.436, 7.85], [0.437, 7.94], [0.437, 8.00]), "stays inside the interval of the slope"),
         (([0.436, 7.85], [0.437, 7.94], [0.437, 9]), "moves 7.85 m/s **out of** the interval"),
         (([0.436, 7.85], [0.437], [0.437, 8.00]), "do not even agree"),
-        (([], [], []), "By none of the readings"),
+        (([], [], []), "With none of the stiffnesses"),
     ],
 )
 def test_what_the_other_readings_make_of_the_critical_speeds(speeds, words):
