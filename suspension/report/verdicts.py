@@ -156,16 +156,16 @@ def spring_sentence(runs, compression, robot, fit):
             f"of Part I, {quantity(fit.stiffness, 'N/m')}"
         )
     beyond = [run.v for run, ratio in zip(runs, compression, strict=True) if ratio > 1]
-    reach = "it was measured" if measured else "the spring of Part I was measured"
+    ends = "its readings end" if measured else "the readings of Part I end"
     if not beyond:
         return (
-            f"{rests}. Up to each verdict no spring is compressed further than "
-            rf"$\delta_{{\max}}$, as far as {reach}."
+            f"{rests}. Up to each verdict no spring is compressed beyond "
+            rf"$\delta_{{\max}}$, where {ends}."
         )
     return (
         f"{rests}. At {speed_list(beyond)} they hold **if the spring stays linear**: before the "
-        rf"verdict is reached, a spring is compressed further than $\delta_{{\max}}$, as far as "
-        f"{reach}.{_at_rest(robot, fit.delta_max)}"
+        rf"verdict is reached, a spring is compressed beyond $\delta_{{\max}}$, where {ends}."
+        f"{_at_rest(robot, fit.delta_max)}"
     )
 
 

@@ -67,13 +67,13 @@ def test_the_spring_beyond_its_measured_range_is_named():
     robot = Robot(FITTED, FITTED)
     ratios = compressions(robot)
     text = part.contact(drives(robot), ratios, robot, STRAIGHT)
-    assert "stiffness of Question 1" in text and "as far as it was measured" in text
+    assert "stiffness of Question 1" in text and "where its readings end" in text
     assert "**if the spring stays linear**" in text and "Even at rest" not in text
     assert "At 1.2, 5 and 10\u00a0m/s they hold" in text
     soft = Robot(250, 250)
     assert "Even at rest" in part.contact(drives(soft), compressions(soft), soft, STRAIGHT)
     text = part.spring_sentence(drives(robot), [0.2] * 4, robot, STRAIGHT)
-    assert "no spring is compressed further" in text and "if the spring" not in text
+    assert "no spring is compressed beyond" in text and "if the spring" not in text
     text = part.spring_sentence(drives(robot), [0.2, 0.2, 0.2, 1.5], robot, STRAIGHT)
     assert not faults(text)
     assert "At 10\u00a0m/s they hold" in text
@@ -90,7 +90,7 @@ def test_stiffnesses_that_were_chosen_are_not_called_measured():
             text = part.spring_sentence(runs, ratios, robot, fitted(793, curvature=4))
             assert "stiffnesses that were chosen" in text and told in text
             assert "stiffness of Question 1" not in text and "contradict" not in text
-            assert "as far as the spring of Part I was measured" in text
+            assert "where the readings of Part I end" in text
             assert not faults(text)
 
 
